@@ -57,15 +57,15 @@ inline constexpr const char* kSternalEnd = "clavicle_sternal_end";
 inline constexpr const char* kSternalEndPosteriorSuperior =
     "clavicle_sternal_end_posterior_superior";
 inline constexpr const char* kAcromialEnd = "clavicle_acromial_end";
-inline constexpr const char* kMedialThird =
-    "clavicle_medial_third";  ///< junction of medial and middle thirds
+/// junction of medial and middle thirds
+inline constexpr const char* kMedialThird = "clavicle_medial_third";
 inline constexpr const char* kLateralThird = "clavicle_lateral_third";
-inline constexpr const char* kEntry =
-    "entry_point";  ///< on the skin, 1 cm below the medial-third junction
-inline constexpr const char* kVeinTarget =
-    "vein_target";  ///< centre of the lumen where the taught line meets it
-inline constexpr const char* kWindow =
-    "infraclavicular_window";  ///< centre of the vein's lumen below the middle of the clavicle
+/// on the skin, 1 cm below the medial-third junction
+inline constexpr const char* kEntry = "entry_point";
+/// centre of the lumen where the taught line meets it
+inline constexpr const char* kVeinTarget = "vein_target";
+/// centre of the vein's lumen below the middle of the clavicle
+inline constexpr const char* kWindow = "infraclavicular_window";
 inline constexpr const char* kWindowSkin = "infraclavicular_window_skin";  ///< on the skin over it
 }  // namespace landmark
 

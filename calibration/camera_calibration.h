@@ -52,8 +52,8 @@ struct ViewResult {
   double rms_px = 0;  ///< of its good corners; of all where the view was left out
   double tilt = 0;    ///< of the board's normal from the camera's axis, rad
   int outliers = 0;   ///< corners that do not fit
-  bool used =
-      true;  ///< false: more than a third of its corners did not fit, so none of them counts
+  /// false: more than a third of its corners did not fit, so none of them counts
+  bool used = true;
 };
 
 /// Corners that counted, by the cell of the picture in which they were seen: [row from the
@@ -79,9 +79,9 @@ struct CameraCalibration {
   double tilt_spread = 0;         ///< rms angle between the used views' normals and their mean, rad
   CoverageMap coverage{};
   double covered = 0;  ///< share of the cells with a corner
-  std::vector<std::string>
-      warnings;  ///< in plain words: left-out views, an empty border of the picture
-  Fit fit;       ///< blocks are the corners of the used views, one view after the other
+  /// in plain words: left-out views, an empty border of the picture
+  std::vector<std::string> warnings;
+  Fit fit;  ///< blocks are the corners of the used views, one view after the other
 
   std::vector<std::string> leftOut() const;  ///< names of views that were
 };

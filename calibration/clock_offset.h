@@ -28,8 +28,8 @@ struct ClockOffset {
   double t_middle = 0;       ///< of the camera's recording, its clock
   double rms = 0;            ///< m, of the good samples
   double correlation = 0;    ///< of the speeds' ranks at the best lag
-  Pose X_CD =
-      Pose::Identity();  ///< a by-product: the device's base in the camera, of the moving point
+  /// a by-product: the device's base in the camera, of the moving point
+  Pose X_CD = Pose::Identity();
   Fit fit;
 };
 

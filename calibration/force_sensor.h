@@ -20,11 +20,11 @@ struct ForceSensorCalibration {
   Vec3 bias_f = Vec3::Zero(), bias_m = Vec3::Zero();  ///< N, N m
   double mass = 0;                                    ///< kg, of what hangs on the sensor
   Vec3 centre_S = Vec3::Zero();                       ///< its centre of mass, m
-  Eigen::Matrix<double, 10, 10> covariance =
-      Eigen::Matrix<double, 10, 10>::Zero();  ///< (bias_f, bias_m, mass, centre)
-  double rms_f = 0, rms_m = 0;                ///< N, N m, per coordinate
-  Mat3 cross_talk =
-      Mat3::Identity();           ///< what the forces look multiplied by: identity if all is well
+  /// (bias_f, bias_m, mass, centre)
+  Eigen::Matrix<double, 10, 10> covariance = Eigen::Matrix<double, 10, 10>::Zero();
+  double rms_f = 0, rms_m = 0;  ///< N, N m, per coordinate
+  /// what the forces look multiplied by: identity if all is well
+  Mat3 cross_talk = Mat3::Identity();
   double cross_talk_sd = 0;       ///< of one of its entries
   bool cross_talk_found = false;  ///< an entry is off by more than 2 % and more than 4 sd
   Fit fit;

@@ -25,9 +25,9 @@ struct HandEyeSample {
 /// along it.
 struct HandEye {
   Pose X_EM = Pose::Identity(), X_DC = Pose::Identity();
-  Eigen::Matrix<double, 12, 12> covariance =
-      Eigen::Matrix<double, 12, 12>::Zero();  ///< turn and shift of X_EM, then of X_DC
-  double rms_turn = 0, rms_shift = 0;         ///< of the good samples, rad and m
+  /// turn and shift of X_EM, then of X_DC
+  Eigen::Matrix<double, 12, 12> covariance = Eigen::Matrix<double, 12, 12>::Zero();
+  double rms_turn = 0, rms_shift = 0;  ///< of the good samples, rad and m
   double left_out_turn = 0,
          left_out_shift = 0;  ///< rms of samples that the fit had not seen (five parts), rad and m
   Fit fit;
@@ -57,9 +57,9 @@ struct TagView {
 /// the corners of a pose share its errors, and 16 of them do not tell 16 times as much.
 struct RefinedHandEye {
   Pose X_EM = Pose::Identity(), X_DW = Pose::Identity();
-  Eigen::Matrix<double, 12, 12> covariance =
-      Eigen::Matrix<double, 12, 12>::Zero();  ///< turn and shift of X_EM, then of X_DW
-  double rms_px = 0;                          ///< of the good poses' corners
+  /// turn and shift of X_EM, then of X_DW
+  Eigen::Matrix<double, 12, 12> covariance = Eigen::Matrix<double, 12, 12>::Zero();
+  double rms_px = 0;             ///< of the good poses' corners
   double left_out_px = 0;        ///< rms of corners in poses that the fit had not seen (five parts)
   double left_out_start_px = 0;  ///< the same by the start, fitted to the same others' poses
   Fit fit;

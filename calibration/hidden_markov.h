@@ -9,8 +9,9 @@
 /// Subtasks proposed from recorded trials: a hidden Markov model whose states give Gaussian
 /// features.
 ///
-///   P(s_0 = i) = start_i,   P(s_t = j | s_{t-1} = i) = transition_ij,   x_td | s_t = i ~
-///   N(mean_id, variance_id)
+///   P(s_0 = i) = start_i
+///   P(s_t = j | s_{t-1} = i) = transition_ij
+///   x_td | s_t = i ~ N(mean_id, variance_id)
 ///
 /// A trial is a matrix: a row a step (even in time), a column a feature (log speed, force, contact
 /// ...), in any unit: columns are standardised inside and the answer is given in the units that
@@ -25,10 +26,10 @@ struct HiddenMarkov {
   Eigen::VectorXd start;           ///< K, sums to 1
   Eigen::MatrixXd transition;      ///< K x K, from row to column, rows sum to 1
   Eigen::MatrixXd mean, variance;  ///< K x D, in the features' units and their squares
-  double log_likelihood =
-      0;  ///< of the trials it was fitted to, nats, densities in the features' units
-  std::vector<double>
-      climb;  ///< log likelihood after 0, 1, 2 ... iterations of the start that won; never falls
+  /// of the trials it was fitted to, nats, densities in the features' units
+  double log_likelihood = 0;
+  /// log likelihood after 0, 1, 2 ... iterations of the start that won; never falls
+  std::vector<double> climb;
   bool converged = false;  ///< false: iterations ran out before the gain was small
   int states() const { return static_cast<int>(start.size()); }
   int parameters() const;  ///< free ones: K - 1 + K (K - 1) + 2 K D
@@ -37,8 +38,8 @@ struct HiddenMarkov {
 struct HiddenMarkovSettings {
   int starts = 5;             ///< the best likelihood of so many
   int most_iterations = 200;  ///< of each start
-  double least_gain =
-      1e-6;  ///< a start has ended when an iteration gains less, nats for each step of the data
+  /// a start has ended when an iteration gains less, nats for each step of the data
+  double least_gain = 1e-6;
   double least_variance = 1e-3;  ///< of a state, relative to the feature's variance over all trials
 };
 
@@ -83,15 +84,15 @@ struct HeldOut {
   double mean = 0;  ///< log likelihood for each step, nats, mean over trials, each held out once
   double standard_error = 0;  ///< of that mean: standard deviation over trials / sqrt(trials)
   double bic = 0;             ///< of the fit to all trials
-  double repeated =
-      1;  ///< adjusted Rand index of the paths that fits to two halves of the trials find in all of
-          ///< them, median of three halvings; of two trials the only one
+  /// adjusted Rand index of the paths that fits to two halves of the trials find in all of them,
+  /// median of three halvings; of two trials the only one
+  double repeated = 1;
 };
 
 struct StatesProposal {
   int states = 0;  ///< by the one-standard-error rule
-  int best =
-      0;  ///< of the greatest mean; when it is the most offered, offer more before you believe it
+  /// of the greatest mean; when it is the most offered, offer more before you believe it
+  int best = 0;
   /// Of two and more, the most whose `repeated` is within 0.05 of the greatest; whether there are
   /// two it cannot tell
   int repeatable = 1;
@@ -140,8 +141,8 @@ struct ForwardSweep {
 ForwardSweep forwardSweep(const HiddenMarkov& m, const Eigen::MatrixXd& x);
 
 struct BackwardSweep {
-  Eigen::MatrixXd
-      after;  ///< P(steps after t | state) / P(steps after t | steps up to t), a step a column
+  /// P(steps after t | state) / P(steps after t | steps up to t), a step a column
+  Eigen::MatrixXd after;
   Eigen::MatrixXd onward;  ///< the same from step t on: ratio times after, but in the first column
 };
 

@@ -20,8 +20,8 @@ struct TouchedLandmark {
 /// 1987, Umeyama 1991); then robust.
 struct LandmarkRegistration {
   Pose X_BA = Pose::Identity();
-  Eigen::Matrix<double, 6, 6> covariance =
-      Eigen::Matrix<double, 6, 6>::Zero();  ///< of (turn in A, shift in B), rad and m
+  /// of (turn in A, shift in B), rad and m
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double fre = 0;    ///< fiducial registration error: rms of the good landmarks, m
   double scale = 1;  ///< that would fit best: far from 1 says that a unit or a landmark is wrong
   Fit fit;

@@ -43,8 +43,8 @@ TipCalibration calibrateTip(const std::vector<Pose>& X_DE, const TipLimits& limi
 /// `toward_E`: which of the two ways along the axis is meant, roughly.
 struct AxisCalibration {
   Vec3 axis_E = Vec3::UnitZ(), direction_D = Vec3::UnitZ();  ///< unit
-  Eigen::Matrix2d covariance =
-      Eigen::Matrix2d::Zero();  ///< rad^2, across the axis: along across_E's columns
+  /// rad^2, across the axis: along across_E's columns
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 3, 2> across_E = Eigen::Matrix<double, 3, 2>::Zero();
   double rms = 0;     ///< rad
   double turned = 0;  ///< rad, the arc that was spun

@@ -21,8 +21,8 @@ struct DeviceReading {
   Packed3 f_hand_D{0, 0, 0};
   /// Of the device on the tool, N, drives and friction, by a force cell before it; likewise
   Packed3 f_device_D{0, 0, 0};
-  std::uint32_t instrumented =
-      0;  ///< 1: both are measured. No device sold measures them: simulated ones do
+  /// 1: both are measured. No device sold measures them: simulated ones do
+  std::uint32_t instrumented = 0;
   std::uint32_t reserved = 0;
 };
 static_assert(std::is_trivially_copyable_v<DeviceReading>);

@@ -110,11 +110,11 @@ struct FlightRecord {
   TickCommands commands;
   SensedForce sensed;
   std::int64_t late_ns = 0;  ///< of the tick behind its due time; 0 in virtual time
-  std::uint64_t snapshot =
-      0;                  ///< number of the newest geometry snapshot used, or refused in this tick
-  Packed3 f_contact_D{};  ///< computed contact force (coupled), independent of `force_feedback`
-  Packed3 f_wanted_D{};   ///< after fading and passivity control: what entered the safety limiter
-  Packed3 f_command_D{};  ///< what left the safety limiter
+  /// number of the newest geometry snapshot used, or refused in this tick
+  std::uint64_t snapshot = 0;
+  Packed3 f_contact_D{};    ///< computed contact force (coupled), independent of `force_feedback`
+  Packed3 f_wanted_D{};     ///< after fading and passivity control: what entered the safety limiter
+  Packed3 f_command_D{};    ///< what left the safety limiter
   Packed3 tau_missing_D{};  ///< torque about E that a three-axis device cannot give, N m
   double indentation = 0;   ///< of the skin before puncture, m
   /// Of the tip below the skin plane along the needle, m; along its normal while the needle has

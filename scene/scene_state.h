@@ -62,8 +62,8 @@ struct CoverageGrid {
   Pose X_AG = Pose::Identity();
   double cell_x = 0.004, cell_y = 0.004;  ///< metres
   int columns = 0, rows = 0;
-  std::vector<std::uint8_t>
-      levels;  ///< row by row from the lowest y; 0: not felt, 1 light, 2 medium, 3 deep
+  /// row by row from the lowest y; 0: not felt, 1 light, 2 medium, 3 deep
+  std::vector<std::uint8_t> levels;
 };
 
 /// Something that lies inside, seen through the surface.
@@ -126,10 +126,10 @@ struct SceneState {
   Pinhole camera;
   bool registered = false;  ///< X_CA is valid
   Pose X_CA = Pose::Identity();
-  std::optional<std::array<EyeCamera, 2>>
-      eyes;  ///< left and right, for a stereo view; empty: derived from the one camera
-  Pose X_AT =
-      Pose::Identity();  ///< tip of needle or probe at the origin of T, +z the way it advances
+  /// left and right, for a stereo view; empty: derived from the one camera
+  std::optional<std::array<EyeCamera, 2>> eyes;
+  /// tip of needle or probe at the origin of T, +z the way it advances
+  Pose X_AT = Pose::Identity();
   Tool tool = Tool::needle;
   bool show_tool = true;
   double plunger = 0;  ///< drawn fraction, 0..1
@@ -141,15 +141,15 @@ struct SceneState {
   std::vector<ForceArrow> forces;
   std::vector<Vec3> trail_A;  ///< path of the tip so far
   std::optional<GuideLine> guide;
-  std::optional<Mat3>
-      tip_covariance_A;  ///< of the drawn tip against the real one, m^2: shown as an ellipse
+  /// of the drawn tip against the real one, m^2: shown as an ellipse
+  std::optional<Mat3> tip_covariance_A;
   std::vector<Occluder> occluders;  ///< hide what is behind them while there is a picture
   Hud hud;
-  std::optional<CoverageGrid>
-      coverage;  ///< a carpet on the surface; its outline shows what is to be searched
+  /// a carpet on the surface; its outline shows what is to be searched
+  std::optional<CoverageGrid> coverage;
   std::vector<ShownLump> lumps;
-  std::vector<Vec3>
-      marks_A;  ///< where the trainee said "here is one": pins, numbered from 1 in this order
+  /// where the trainee said "here is one": pins, numbered from 1 in this order
+  std::vector<Vec3> marks_A;
   std::optional<Vec3> lead_A;  ///< where guidance asks the hand to go next: a ring on the surface
   std::optional<Pose> second_X_AT;  ///< another probe beside the tool; AR view only
   /// Where the body is that is shown as made in A: a thing in the hands moves. AR view only, and

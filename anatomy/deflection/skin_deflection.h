@@ -21,8 +21,8 @@ struct GradedDisc {
   int contact_rings = 0;      ///< the last of them is the contact's rim
   std::vector<double> radii;  ///< of the rings, from the innermost to the rim
   std::vector<Vec2> nodes;    ///< the centre, then ring by ring, counter-clockwise from +x
-  std::vector<std::array<std::uint32_t, 3>>
-      triangles;  ///< counter-clockwise, from the centre outward
+  /// counter-clockwise, from the centre outward
+  std::vector<std::array<std::uint32_t, 3>> triangles;
 
   std::uint32_t node(int ring, int k) const {
     return 1 + static_cast<std::uint32_t>(ring * per_ring + k % per_ring);
@@ -57,8 +57,9 @@ GradedDisc gradedDisc(double contact, double patch, int per_ring);
 /// A point load would be singular (ln r): the load covers a disc of the contact's radius. A tool
 /// that leans presses more ahead of it:
 ///
-///     p(x) = p0 (1 + lean . x / a)     |lean| <= 1, a: contact radius; its centre lies a lean / 4
-///     ahead
+///     p(x) = p0 (1 + lean . x / a)     |lean| <= 1, a: contact radius
+///
+/// whose centre lies a lean / 4 ahead.
 ///
 /// Errors: tests/anatomy_deflection holds it against the closed forms. Linear: slopes and depths
 /// are taken as small; a dimple deeper than it is wide is drawn, but no longer mechanics.

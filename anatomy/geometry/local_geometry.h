@@ -99,8 +99,8 @@ struct Boundary {
   Packed3 n{0, 0, 1};
   Tissue from = Tissue::air;
   Tissue to = Tissue::air;
-  Organ wall =
-      Organ::none;       ///< organ whose wall this is: fascia, vein, artery, lung; none: no wall
+  /// organ whose wall this is: fascia, vein, artery, lung; none: no wall
+  Organ wall = Organ::none;
   bool leaving = false;  ///< true for the back wall
 };
 

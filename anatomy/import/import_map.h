@@ -15,8 +15,8 @@ namespace palpa::anatomy {
 /// p_A = axes * (metres of unit * scale * p_file) + translate - origin of the map.
 struct MapEntry {
   std::filesystem::path file;  ///< relative, inside the folder
-  std::optional<std::string>
-      mesh_name;  ///< of its surfaces only this one; without name and index all of them
+  /// of its surfaces only this one; without name and index all of them
+  std::optional<std::string> mesh_name;
   std::optional<std::size_t> mesh_index;
   std::string id;
   Organ organ = Organ::none;

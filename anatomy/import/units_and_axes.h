@@ -34,8 +34,8 @@ std::string lengthText(double metres);
 /// left and right, A and P: anterior and posterior, S and I: superior and inferior. "LPS" is frame
 /// A itself, "LSA" glTF's custom (y up, z front).
 struct FileAxes {
-  Mat3 A_from_file =
-      Mat3::Identity();  ///< v_A = A_from_file * v_file; a turn, or a turn and a mirror
+  /// v_A = A_from_file * v_file; a turn, or a turn and a mirror
+  Mat3 A_from_file = Mat3::Identity();
   bool rightHanded() const { return A_from_file.determinant() > 0; }
 };
 

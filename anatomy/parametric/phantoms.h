@@ -11,8 +11,8 @@
 namespace palpa::anatomy {
 
 namespace landmark {
-inline constexpr const char* kNearEdge =
-    "near_edge";  ///< middle of the top's edge toward who palpates: from there it is looked at
+/// middle of the top's edge toward who palpates: from there it is looked at
+inline constexpr const char* kNearEdge = "near_edge";
 }  // namespace landmark
 
 inline constexpr double kBlockEdge = 0.004;  ///< m, radius of the edges
@@ -46,8 +46,8 @@ struct PhantomSpec {
 };
 
 namespace landmark {
-inline constexpr const char* kInclusion =
-    "inclusion_centre";  ///< abdomen: on the middle of the liver's edge
+/// abdomen: on the middle of the liver's edge
+inline constexpr const char* kInclusion = "inclusion_centre";
 inline constexpr const char* kInclusionSkin = "inclusion_skin";  ///< on the skin over it
 }  // namespace landmark
 

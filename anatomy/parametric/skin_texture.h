@@ -5,8 +5,8 @@
 
 namespace palpa::anatomy {
 
-/// How a picture lies on the parametric skin (frame B, mm). The angle about the body's long axis, x
-/// = 0, y = 66, and the height, with both sides mirror images, so that there is no seam and the
+/// How a picture lies on the parametric skin (frame B, mm). The angle about the body's long axis,
+/// x = 0, y = 66, and the height, with both sides mirror images, so that there is no seam and the
 /// mesh keeps its shared vertices:
 ///
 ///     u = |atan2(x, 66 - y)| / pi     0 on the front's midline, 1 on the back's

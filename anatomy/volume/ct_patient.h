@@ -21,8 +21,8 @@ struct CtPatient {
   Scan scan;
   std::vector<LabelledOrgan> labels;
   Seeds seeds;  ///< S, metres: used ones, proposed or given
-  std::vector<std::string>
-      remarks;  ///< plain sentences: what leaves the volume, what is estimated, what may be turned
+  /// plain sentences: what leaves the volume, what is estimated, what may be turned
+  std::vector<std::string> remarks;
   Vec3 origin_S = Vec3::Zero();  ///< of A
 };
 

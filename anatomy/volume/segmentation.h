@@ -12,9 +12,9 @@ namespace palpa::anatomy {
 /// to 10 mm rms, in front of the spine and to one side.
 struct Clavicle3 {
   Mask mask;  ///< filled: marrow included
-  std::vector<Vec3>
-      axis_S;         ///< from the sternal end to the acromial end or to where the volume ends
-  double length = 0;  ///< along the axis, inside the volume
+  /// from the sternal end to the acromial end or to where the volume ends
+  std::vector<Vec3> axis_S;
+  double length = 0;           ///< along the axis, inside the volume
   bool leaves_volume = false;  ///< at its acromial end
   Vec3 seed_S = Vec3::Zero();  ///< a place in it that finds it again
 };

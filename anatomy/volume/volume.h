@@ -19,10 +19,10 @@ using Index3 = std::array<int, 3>;
 
 struct Volume {
   Index3 size{0, 0, 0};
-  std::vector<float>
-      values;  ///< i runs fastest, then j, then k; CT: Hounsfield units if the file has them
-  Mat3 steps_S =
-      Mat3::Identity();  ///< columns: from a voxel's centre to the next along i, j, k, metres
+  /// i runs fastest, then j, then k; CT: Hounsfield units if the file has them
+  std::vector<float> values;
+  /// columns: from a voxel's centre to the next along i, j, k, metres
+  Mat3 steps_S = Mat3::Identity();
   Vec3 origin_S = Vec3::Zero();  ///< centre of voxel (0, 0, 0)
 
   std::size_t index(int i, int j, int k) const {

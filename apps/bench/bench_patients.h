@@ -6,8 +6,8 @@ namespace palpa::bench {
 
 /// A piece of chest known in closed form, to measure against:
 ///   z(x, y) = -x^2 / (2 R_x) - y^2 / (2 R_y) + (H/2) cos(2 pi x / L) cos(2 pi y / L)
-/// on |x| <= 110 mm, |y| <= 85 mm: 1000 flat triangles miss the bumps by 0.3 mm; R_x = 0.18 m, R_y
-/// = 0.9 m; bumps H = 2 mm high, L = 40 mm long. +z is outside.
+/// on |x| <= 110 mm, |y| <= 85 mm: 1000 flat triangles miss the bumps by 0.3 mm; R_x = 0.18 m,
+/// R_y = 0.9 m; bumps H = 2 mm high, L = 40 mm long. +z is outside.
 struct TorsoPoint {
   Vec3 p, n;
 };

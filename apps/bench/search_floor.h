@@ -31,9 +31,9 @@ std::vector<LookUp> timeLookUps(const SearchFloor& floor, int blocks);
 
 /// The whole tick, reading to command, while the probe goes round through all three elements at
 /// speeds on both sides of every threshold:
-///   r = R + 35 U sin(2 pi 1.7 Hz t), angle = 2 pi 0.8 Hz t;   so deep under the smooth floor that
-///   the degraded floor gives `press_N`
-/// As fast as it goes, 16 at a time.
+///   r = R + 35 U sin(2 pi 1.7 Hz t),   angle = 2 pi 0.8 Hz t
+/// so deep under the smooth floor that the degraded floor gives `press_N`. As fast as it goes, 16
+/// at a time.
 struct FloorTickTiming {
   QueryTiming augmented,
       plain;          ///< every augmentation of the task; the same floor in a session that has none

@@ -58,8 +58,8 @@ class SubtaskSteps {
   std::int64_t begin_ns_ = 0, last_ns_ = 0, step_ = 0;
   haptics::PointMotion motion_;
   haptics::StepSums sums_;
-  std::vector<std::pair<int, int>>
-      counted_;  ///< bits of the parts that were on in this step, how often
+  /// bits of the parts that were on in this step, how often
+  std::vector<std::pair<int, int>> counted_;
   std::vector<Eigen::RowVectorXd> rows_;
   std::vector<int> labels_;
   std::vector<SubtaskSequence> done_;

@@ -14,8 +14,8 @@ namespace palpa::calibrate {
 
 inline constexpr int kMostProposed = 8;        ///< states offered
 inline constexpr int kBoundaryTolerance = 10;  ///< steps: 100 ms
-inline constexpr double kIndependent =
-    0.1;  ///< correlation of neighbours within a state up to which steps count as independent
+/// correlation of neighbours within a state up to which steps count as independent
+inline constexpr double kIndependent = 0.1;
 
 struct SubtaskOptions {
   std::uint64_t seed = 1;
@@ -51,15 +51,15 @@ struct StateLook {
 
 struct SubtaskSegmentation {
   calibration::StatesProposal proposal;  ///< of the thinned steps
-  int states =
-      0;  ///< taken: as asked, else the fewer of what new trials ask for and what two halves repeat
+  /// taken: as asked, else the fewer of what new trials ask for and what two halves repeat
+  int states = 0;
   int thinned_to = 1;         ///< steps of 10 ms between those that the model was fitted to
   double neighbours = 0;      ///< their correlation within a state
   std::vector<int> features;  ///< used; the others do not change in enough of the trials
   Eigen::VectorXd centre,
       spread;  ///< of the features used, over all steps fitted to: what the fit is standardised by
-  calibration::HiddenMarkov
-      model;  ///< of steps of 10 ms: a move is as much rarer as the steps are closer
+  /// of steps of 10 ms: a move is as much rarer as the steps are closer
+  calibration::HiddenMarkov model;
   std::vector<std::vector<int>> paths;  ///< a state a step, by sequence
   calibration::Contingency steps;       ///< states (rows), labels (columns)
   std::vector<int> matching;            ///< the column that goes with each row, -1: none

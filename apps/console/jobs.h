@@ -25,10 +25,10 @@ struct JobRequest {
   std::vector<std::string> arguments;  ///< of the command; "{}" stands for the job's folder
   /// The file that shows what came out, in the folder or with its whole path; empty: none
   std::string page;
-  std::function<void(const std::filesystem::path& folder, bool good)>
-      then;  ///< on the jobs' thread
-  std::string picture =
-      "";  ///< the file in the folder that shows what the camera sees meanwhile; empty: none
+  /// on the jobs' thread
+  std::function<void(const std::filesystem::path& folder, bool good)> then;
+  /// the file in the folder that shows what the camera sees meanwhile; empty: none
+  std::string picture = "";
 };
 
 /// Work in the background: commands of this program, one after the other, at low priority. Each has

@@ -54,8 +54,8 @@ Finding askAssets();
 struct ClockFacts {
   std::int64_t resolution_ns = 1;  ///< of the clock by which sessions run
   double seconds = 0;              ///< how long they were watched
-  double date_moved_ms =
-      0;  ///< how much further the date went than that clock: it was set meanwhile
+  /// how much further the date went than that clock: it was set meanwhile
+  double date_moved_ms = 0;
   bool synchronised = true;  ///< the date is kept by a time server
 };
 

@@ -14,8 +14,8 @@ namespace palpa::evidence {
 struct EvidenceRecords {
   record::StoredSession session;
   std::vector<record::StoredTrial> trials;  ///< that ended, each with every figure, judged again
-  int unfinished =
-      0;  ///< trials in whose middle the program stopped: they stay in the evidence only
+  /// trials in whose middle the program stopped: they stay in the evidence only
+  int unfinished = 0;
 };
 
 /// Throws Error for a file that is none or damaged.

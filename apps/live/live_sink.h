@@ -15,8 +15,8 @@ namespace palpa::live {
 /// reads on from where he was. Any thread but the haptic one.
 class LiveLog {
  public:
-  static constexpr std::size_t kMostCurves =
-      200'000;  ///< 5 h of curves at 10 entries a second; what happens is told beyond it, too
+  /// 5 h of curves at 10 entries a second; what happens is told beyond it, too
+  static constexpr std::size_t kMostCurves = 200'000;
 
   void add(std::string entry);
   void addCurve(std::string entry);  ///< left out beyond kMostCurves

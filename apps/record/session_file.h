@@ -25,9 +25,8 @@ struct SessionInfo {
   std::string patient_glb;  ///< the patient file's bytes, so that the evidence stands alone
   std::string expert_path_json;
   haptics::TickConfig tick_config;  ///< of the first device where there are two
-  std::optional<haptics::PairConfig> pair_config =
-      {};  ///< of two devices in one tick: every tick is recorded twice, FlightRecord::tool telling
-           ///< which
+  /// of two devices in one tick: every tick is recorded twice, FlightRecord::tool telling which
+  std::optional<haptics::PairConfig> pair_config = {};
 };
 
 /// Writes `session.palpa`: SQLite, application_id "palp", user_version 1, WAL, one a session. Ticks

@@ -34,14 +34,14 @@ struct CameraView {
   std::uint64_t number = 0;
   std::string source;
   std::shared_ptr<const cv::Mat> picture;
-  std::optional<ar::BoardPose>
-      pose;  ///< as measured in this picture; empty when the board is not seen in it
+  /// as measured in this picture; empty when the board is not seen in it
+  std::optional<ar::BoardPose> pose;
   /// Of the board at the exposure: filtered over the pictures, or predicted where it is hidden for
   /// a moment
   std::optional<Pose> X_CW;
   ar::TrackState tracking = ar::TrackState::searching;
-  bool by_tracker =
-      false;  ///< X_CW and `tracking` are of another tracking system than the pictures
+  /// X_CW and `tracking` are of another tracking system than the pictures
+  bool by_tracker = false;
   ar::PictureFault fault = ar::PictureFault::none;  ///< gone: `source` says why
   std::vector<std::optional<Pose>>
       /// X_CB of the boards besides the table's, as `X_CW`, in the order of the camera's settings;
@@ -102,8 +102,8 @@ struct Bus {
 
   StateChannel<LocalGeometry> geometry_to_haptic;
   StateChannel<ToolState> haptic_to_geometry, haptic_to_scene;
-  StateChannel<ToolState>
-      second_to_scene;  ///< of the second of two devices; silent where there is one
+  /// of the second of two devices; silent where there is one
+  StateChannel<ToolState> second_to_scene;
   StateChannel<haptics::TickCommands> task_to_haptic;
   StateChannel<CameraView> camera_to_scene, camera_to_task;
   StateChannel<ToolState> haptic_to_link,

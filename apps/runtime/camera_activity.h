@@ -29,10 +29,10 @@ class CameraActivity final : public Activity {
     std::int64_t latency_ns = 50'000'000;  ///< exposure to published pose; at most the period
     TimeMode mode = TimeMode::virtual_time;
     bool photographs = false;  ///< each picture stands for itself: no motion between them
-    std::optional<Tracking>
-        tracked{};  ///< X_CW comes by `Bus::tracker_to_camera`; the table's board is not looked for
-    std::vector<std::shared_ptr<const ar::Board>>
-        others{};  ///< looked for besides the table's, each with a motion of its own
+    /// X_CW comes by `Bus::tracker_to_camera`; the table's board is not looked for
+    std::optional<Tracking> tracked{};
+    /// looked for besides the table's, each with a motion of its own
+    std::vector<std::shared_ptr<const ar::Board>> others{};
   };
   /// Freezes the inputs of a picture exposed now, and returns what takes it (run on any thread).
   /// The inner function returns nothing when the source has ended; the frame's time of exposure is

@@ -15,8 +15,8 @@ std::string cameraTrouble(const CameraView* view, std::int64_t now_ns);
 struct BoardPlace {
   std::string name;
   std::optional<Pose> X_WB;  ///< empty: anywhere
-  double tolerance =
-      0.003;  ///< m that it may be off; the same at its edge, 0.1 m from its middle, for its turn
+  /// m that it may be off; the same at its edge, 0.1 m from its middle, for its turn
+  double tolerance = 0.003;
 };
 
 struct Displaced {

@@ -47,8 +47,8 @@ class StateChannel {
     std::int64_t visible_ns;
     T value;
   };
-  static constexpr std::size_t kMostPending =
-      1024;  ///< more than a second of ticks: beyond every latency
+  /// more than a second of ticks: beyond every latency
+  static constexpr std::size_t kMostPending = 1024;
   TimeMode mode_;
   haptics::LatestValue<Slot> latest_;
   std::deque<Pending> pending_;  ///< virtual time only

@@ -50,8 +50,8 @@ struct Lateness {
   std::uint64_t steps = 0;
   double median_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
   TimeSpread cost;  ///< from the step's beginning to its end, wherever the thread was meanwhile
-  std::uint64_t missed_ticks =
-      0;                   ///< later than one period; 0 for an activity without a steady period
+  /// later than one period; 0 for an activity without a steady period
+  std::uint64_t missed_ticks = 0;
   std::string scheduling;  ///< "SCHED_FIFO; memory locked", or why not
   TimeHistogram late;      ///< the lateness itself
 };

@@ -12,8 +12,8 @@ class GeometryActivity final : public Activity {
  public:
   struct Settings {
     std::int64_t period_ns = 16'666'667;
-    std::int64_t latency_ns =
-        2'000'000;  ///< in virtual time a snapshot becomes visible this long after its step
+    /// in virtual time a snapshot becomes visible this long after its step
+    std::int64_t latency_ns = 2'000'000;
     std::int64_t blend_ns = haptics::TickConfig{}.blend_ns;  ///< of the tick that uses it
   };
   GeometryActivity(Bus& bus, const anatomy::LocalGeometryBuilder& builder, const Pose& X_DA)

@@ -29,8 +29,8 @@ class RecorderActivity final : public Activity {
   }
 
  private:
-  static constexpr std::int64_t kTicks =
-      100;  ///< half of what a killed process may lose; the queue holds 8192
+  /// half of what a killed process may lose; the queue holds 8192
+  static constexpr std::int64_t kTicks = 100;
   void drain();
   Bus& bus_;
   FlightSink& sink_;

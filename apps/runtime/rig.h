@@ -45,18 +45,18 @@ struct Request {
   std::string sample = {};      ///< which one lies there; empty: the plain one
   double depth = 0, reach = 0;  ///< m
 };
-inline constexpr double kFeltRate_Hz =
-    1000;  ///< of the readings while a sample is pressed or stroked
+/// of the readings while a sample is pressed or stroked
+inline constexpr double kFeltRate_Hz = 1000;
 
 /// What a station shows at one moment: a reading of the device or a picture.
 struct RigMoment {
   double t = 0;                                   ///< s since the start, the program's clock
   std::optional<haptics::DeviceReading> reading;  ///< t_ns: the device's own clock
   std::optional<haptics::WrenchSample> wrench;    ///< with a reading, where there is a sensor
-  std::function<std::optional<ar::Frame>()>
-      picture;  ///< takes it when called; stamped with the believed time of exposure
-  std::optional<Vec3> lump_W =
-      {};  ///< m, how far a lump in the sample has moved: by ultrasound, or seen in a clear sample
+  /// takes it when called; stamped with the believed time of exposure
+  std::function<std::optional<ar::Frame>()> picture;
+  /// m, how far a lump in the sample has moved: by ultrasound, or seen in a clear sample
+  std::optional<Vec3> lump_W = {};
 };
 
 inline constexpr std::uint32_t kMarkButton = 1;  ///< bit of DeviceReading::buttons that says "now"

@@ -25,11 +25,11 @@ class SessionDevices {
   /// Who may hold the tool: a simulated person on the bench, and somebody with a mouse (none: a
   /// task that must be felt).
   struct Hands {
-    twin::VirtualBenchSetup
-        bench;  ///< what is simulated; sensor and how one gives up are put in here
+    /// what is simulated; sensor and how one gives up are put in here
+    twin::VirtualBenchSetup bench;
     std::optional<MouseHandSetup> mouse;
-    double tip_radius =
-        0;  ///< m: the point whose place goes with the sensed force lies so far behind the tip
+    /// m: the point whose place goes with the sensed force lies so far behind the tip
+    double tip_radius = 0;
     PointingHand* pointing = nullptr;  ///< it holds the bench's device, for a person
   };
   SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands,

@@ -32,8 +32,8 @@ struct SessionRun {
   };
   std::optional<Video> video;          ///< where one was recorded
   std::optional<ar::BoardPose> board;  ///< as it was seen last
-  std::vector<runtime::Event>
-      safety_events;                  ///< what took the force away, what a driver had to say
+  /// what took the force away, what a driver had to say
+  std::vector<runtime::Event> safety_events;
   std::vector<report::Fact> devices;  ///< what their drivers counted
   std::uint64_t dropped = 0;          ///< records lost by the recorder
   double simulated_s = 0;
@@ -49,8 +49,8 @@ class SessionFrame {
     const anatomy::Patient& patient;  ///< what is shown
     Pose X_WA;
     haptics::TickConfig tick;
-    std::optional<haptics::PairConfig> pair =
-        {};  ///< of two devices in one tick, in place of `tick`
+    /// of two devices in one tick, in place of `tick`
+    std::optional<haptics::PairConfig> pair = {};
     bool fixed_views = true;
     const runtime::FloorSource* floors = nullptr;  ///< of a search
     live::NearMiss near = {};  ///< told to whoever looks on; empty: nothing is near

@@ -55,12 +55,12 @@ struct SessionOptions {
   anatomy::Side side = anatomy::Side::right;
   bool left_handed = false;
   std::uint64_t seed = 1;
-  std::uint64_t bench_seed =
-      0;  ///< of the virtual bench's truth, which a calibration of it belongs to; 0: as `seed`
+  /// of the virtual bench's truth, which a calibration of it belongs to; 0: as `seed`
+  std::uint64_t bench_seed = 0;
   std::uint64_t benchSeed() const { return bench_seed ? bench_seed : seed; }
   OperatorKind who = OperatorKind::automatic;
-  bool knows_patient =
-      false;  ///< a simulated operator aims by this patient's images, not by the mean anatomy
+  /// a simulated operator aims by this patient's images, not by the mean anatomy
+  bool knows_patient = false;
   bool force_feedback = true;
   int trials = 1;
   std::string trainee = "T000";
@@ -92,8 +92,8 @@ struct SessionOptions {
   std::string igtl_listen = "127.0.0.1";  ///< to whom: an address of this computer
   bool guidance = false;                  ///< palpation: help that fades, in every other trial
   bool see_through = false;               ///< palpation: the lumps are shown; not scored
-  std::string mode =
-      "real";            ///< search: real, degraded, augmented, or all of them one after the other
+  /// search: real, degraded, augmented, or all of them one after the other
+  std::string mode = "real";
   bool blocks = false;   ///< search: the task's blocks; training in `mode`
   bool assess = false;   ///< assessment: every aid is off
   bool augment = false;  ///< needle, palpation: the task's augmentations add force

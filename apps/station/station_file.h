@@ -35,8 +35,8 @@ struct SoftSample {
 /// its middle, z up.
 struct FloorSetup {
   Pose X_WF = Pose::Identity();
-  double unit =
-      60e-6;  ///< m in the hand for one unit of the floor; coarse devices need a larger one
+  /// m in the hand for one unit of the floor; coarse devices need a larger one
+  double unit = 60e-6;
   double handle_weight_N = 0;  ///< held up by the device
 };
 
@@ -76,18 +76,18 @@ struct Station {
   double camera_latency_s = 0.05;
   std::vector<OtherBoard> boards;  ///< besides the table's
   std::vector<RealThing> things;   ///< that hide virtual ones in the picture
-  std::optional<ar::TagGridSpec>
-      marker;  ///< a small grid of tags on the end effector, for registration and latency
+  /// a small grid of tags on the end effector, for registration and latency
+  std::optional<ar::TagGridSpec> marker;
   std::optional<SoftSample> sample;  ///< what palpation, squeezing and their calibrations touch
   std::optional<FloorSetup> floor;   ///< what a search explores
   std::vector<Landmark> landmarks;   ///< known points that a tip can be put on
-  std::vector<Landmark>
-      grid;  ///< more of them, evenly through the workspace: for the device's position error
+  /// more of them, evenly through the workspace: for the device's position error
+  std::vector<Landmark> grid;
   haptics::WorkspaceCorrection workspace;  ///< of the device's readings
   Pose X_WD = Pose::Identity();            ///< haptic base on the table: registration
   Pose X_ET = Pose::Identity();            ///< needle tip in the end effector: tool calibration
-  std::optional<Pose>
-      second_X_WD;  ///< of another device of the same make, for what takes two tools
+  /// of another device of the same make, for what takes two tools
+  std::optional<Pose> second_X_WD;
   /// Where the patient's entry point lies: within the hand's reach, whoever the patient is
   Vec3 entry_W = Vec3::Zero();
   haptics::SafetyLimits safety;
@@ -95,8 +95,8 @@ struct Station {
   haptics::PassivityLimits passivity;  ///< sized from the device's mass and friction
   std::string calibration_verdict;  ///< kPassed, or what is wrong: a session is then "not scored"
   std::string calibration_date;     ///< of the oldest
-  std::vector<AppliedCalibration>
-      calibrations;  ///< in the order of the file; what they found stands in the figures above
+  /// in the order of the file; what they found stands in the figures above
+  std::vector<AppliedCalibration> calibrations;
   Design design;
   JsonFile file;  ///< for parts that only others read (the twin's spreads)
 

@@ -27,8 +27,8 @@ struct DeviceSetup {
   double thermal_tau = 60;          ///< s
   std::filesystem::path firmware;   ///< falcon: its maker's file; empty: it must be running
   std::filesystem::path recording;  ///< replay: a session.palpa
-  std::uint32_t plunger_button =
-      0;  ///< bits of DeviceReading::buttons; 0: the device has a plunger of its own
+  /// bits of DeviceReading::buttons; 0: the device has a plunger of its own
+  std::uint32_t plunger_button = 0;
 };
 
 /// Section "device". Relative paths start at `folder`. Throws UsageError.
@@ -42,8 +42,8 @@ enum class ForceSensorDriver { bench, net_ft };
 struct ForceSensorSetup {
   ForceSensorDriver driver = ForceSensorDriver::bench;
   haptics::NetFtSettings net_ft;  ///< its capabilities hold for every driver
-  haptics::WrenchFilter
-      filter;  ///< bias and tool, as calibrated; its rate and low-pass are the loop's to set
+  /// bias and tool, as calibrated; its rate and low-pass are the loop's to set
+  haptics::WrenchFilter filter;
   double cutoff_Hz = 100;
   Pose X_ES = Pose::Identity();  ///< the sensor on the end effector
 };
@@ -67,8 +67,8 @@ struct TrackerSetup {
   double stale_s = 0.1;          ///< beyond, the camera counts as lost
   double sigma = 0.3e-3,
          sigma_rad = 2e-3;  ///< standard deviation of each component of X_CW, m and rad
-  int ask_tdata_ms =
-      0;  ///< for servers that send tracking data only when asked; 0: they send by themselves
+  /// for servers that send tracking data only when asked; 0: they send by themselves
+  int ask_tdata_ms = 0;
 };
 
 /// Section "tracker", where there is one. Throws UsageError.
@@ -84,8 +84,8 @@ ar::TagGridSpec readBoard(const JsonFile& file, const std::string& at);
 struct OtherBoard {
   std::string name;
   ar::TagGridSpec grid;
-  std::optional<Pose>
-      X_WB;  ///< where it belongs, if it belongs anywhere: it is told when it is elsewhere
+  /// where it belongs, if it belongs anywhere: it is told when it is elsewhere
+  std::optional<Pose> X_WB;
   double tolerance = 0.003;  ///< m
 };
 

@@ -44,26 +44,27 @@ struct NamedPart {
 };
 
 /// A task's parts and what is added to the force in each, as its file says it:
-///   "subtasks": [{"name": "scan", "means": "...", "on": [{"cue": "floor_speed", "at_least":
-///   468.75}]}]
+///   "subtasks": [{"name": "scan", "means": "...",
+///                 "on": [{"cue": "floor_speed", "at_least": 468.75}]}]
 ///       each condition: a cue (haptics/augmentation/subtasks.h, in its unit) with "at_least",
 ///       "below" or "is" (a number, or the phase's or tissue's name)
 ///   "learned": a model that parts may be told by (learnedIn)
 ///   "hysteresis": 0.05: a part is off again so far below its thresholds
 ///   "augmentations": [{"name": "edge", "kind": "pulse", "subtask": "scan", "trigger": "rise",
-///   "way": "up", "force_N": 0.8, "width_ms": 10}]
+///                      "way": "up", "force_N": 0.8, "width_ms": 10}]
 ///       kind: pulse, vibration (frequency_Hz or wavelength_mm, decay_ms), attraction (reach_mm or
 ///       reach_U), exaggeration (times, tau_ms), fixture (stiffness_N_per_m), relief (force_N, at
-///       the highest bumps); trigger: begin, rise, bump, or an event (skin_punctured, withdrawn,
-///       wall_punctured, bone_touched, bone_left);  way (of pulse, vibration, relief): up,
-///       against_motion, along_tool, against_tool
+///       the highest bumps)
+///       trigger: begin, rise, bump, or an event (skin_punctured, withdrawn, wall_punctured,
+///       bone_touched, bone_left)
+///       way (of pulse, vibration, relief): up, against_motion, along_tool, against_tool
 ///   "limit_share": 0.5 of the device's force, for all together
 struct NamedPlan {
   haptics::AugmentationPlan plan;  ///< forces as in the file, for no device yet
   std::vector<NamedPart> subtasks, augmentations;
   double limit_share = 0.5;
-  std::vector<double>
-      reach_U;  ///< of each augmentation, where it is given in units of a floor; else 0
+  /// of each augmentation, where it is given in units of a floor; else 0
+  std::vector<double> reach_U;
   bool empty() const { return subtasks.empty(); }
   std::vector<std::string> subtaskNames() const {
     std::vector<std::string> names;

@@ -26,8 +26,8 @@ struct Learners {
   training::Engine engine = training::Engine::needle;  ///< of the tasks that they can do
   std::filesystem::path from, to;                      ///< operator files: level 0 and level 1
   std::map<std::string, GroupLearning> groups;
-  std::map<std::string, double>
-      rate_times;  ///< by condition: how much faster a trial in it is learned from
+  /// by condition: how much faster a trial in it is learned from
+  std::map<std::string, double> rate_times;
 };
 
 /// Throws UsageError naming file and field; a group or condition of the protocol that is missing,

@@ -23,11 +23,13 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
                    const std::string& camera, const std::string& mark, const TaskWords& words = {});
 
 /// How the needle moves the skin that is shown.
-///   before puncture    the skin is where the tip is: pushed from the tip's nearest point on it,
-///   straight to the tip inserted           at the entry: what the shaft's friction drags, axial
-///   force / stiffness, at most 3 mm; inward while the
-///                      needle goes in, outward (a tent) while it is drawn out
-///   after puncture and after withdrawal   what is left goes exponentially to that, tau = 0.15 s
+///   before puncture   the skin is where the tip is: pushed from the tip's nearest point on it,
+///                     straight to the tip
+///   inserted          at the entry: what the shaft's friction drags, axial force / stiffness, at
+///                     most 3 mm; inward while the needle goes in, outward (a tent) while it is
+///                     drawn out
+///   after puncture,   what is left goes exponentially to that, tau = 0.15 s
+///   after withdrawal
 /// Only what is drawn; no force and no score knows of it.
 class SkinFollower {
  public:

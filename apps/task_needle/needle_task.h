@@ -29,8 +29,8 @@ struct TrialPlan {
   bool force_feedback = true;
   bool augmented = false;         ///< the task's augmentations add force
   double puncture_force_N = 1.5;  ///< of the skin
-  std::array<float, kOrganCount> wall_scale =
-      haptics::TickCommands{}.wall_scale;  ///< of the walls' median peaks
+  /// of the walls' median peaks
+  std::array<float, kOrganCount> wall_scale = haptics::TickCommands{}.wall_scale;
   int most_passes = 0;  ///< of the needle: the next one ends the trial; 0: no limit
 };
 

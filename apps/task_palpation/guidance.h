@@ -9,8 +9,9 @@ namespace palpa::task_palpation {
 /// Help that fades: a ring on the phantom leads the hand along vertical strips to the next place
 /// that was not felt, once nothing new was felt for a while. The better the trials, the longer the
 /// wait; every second trial has no help at all (it is the unaided ones that count).
-///     wait = 2 s / g,   g = 1 at first; after an aided or unaided trial g - 0.34 where the area
-///     was covered as the standard asks, g + 0.17 where it was not; within 0 (never) and 1
+///     wait = 2 s / g,   0 (never) <= g <= 1,   g = 1 at first
+/// after an aided or unaided trial g - 0.34 where the area was covered as the standard asks,
+/// g + 0.17 where it was not
 /// [chosen, after the finding that help as needed served retention and constant help hurt it]
 class Guidance {
  public:

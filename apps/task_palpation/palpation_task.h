@@ -23,8 +23,8 @@ namespace palpa::task_palpation {
 class PalpationListener {
  public:
   static constexpr std::uint32_t kMark = 1;  ///< bit of DeviceReading::buttons
-  static constexpr double kOver =
-      0.010;  ///< m above the top, at which a button still means the phantom
+  /// m above the top, at which a button still means the phantom
+  static constexpr double kOver = 0.010;
   explicit PalpationListener(const haptics::TickConfig& config);
 
   void begin(std::uint32_t trial);  ///< everything so far is forgotten
@@ -74,8 +74,8 @@ struct SeenLump {
 /// What the task tells the scene.
 struct PalpationStatus : trial::TrialStatus {
   int columns = 0, rows = 0;
-  std::vector<std::uint8_t>
-      levels;  ///< of the coverage map, row by row from the trainee away; empty: it is not shown
+  /// of the coverage map, row by row from the trainee away; empty: it is not shown
+  std::vector<std::uint8_t> levels;
   std::vector<Vec3> marks_P;
   std::vector<SeenLump> lumps;  ///< seen through the surface
   std::optional<Vec3> lead_P;   ///< where guidance leads

@@ -12,9 +12,12 @@ namespace palpa::task_palpation {
 /// silicone was identified to. A lump that is not there changes nothing of that: the sensor lies
 /// before it.
 ///     drifted    0.1 s long, more than the loop takes for touch, the tip 4 mm or more above the
-///     top reversed   0.1 s long, more than that toward the phantom, the tip 2 mm or more below the
-///     top scale      the last five presses of 3 mm or more gave less than half or more than twice
-///     H(depth), in the median: registration errs by a millimetre, silicone ages, but not that much
+///                top
+///     reversed   0.1 s long, more than that toward the phantom, the tip 2 mm or more below the
+///                top
+///     scale      the last five presses of 3 mm or more gave less than half or more than twice
+///                H(depth), in the median: registration errs by a millimetre, silicone ages, but
+///                not that much
 class SensorCheck {
  public:
   explicit SensorCheck(const haptics::TickConfig& config);

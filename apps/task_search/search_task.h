@@ -70,8 +70,8 @@ struct SearchTaskSetup {
   std::string not_scored;  ///< why; empty: scored
   const std::vector<Episode>& episodes;
   std::vector<runtime::BoardPlace> places;
-  training::Role role =
-      training::Role::scored;  ///< of the episodes, where nothing speaks against it
+  /// of the episodes, where nothing speaks against it
+  training::Role role = training::Role::scored;
 };
 
 /// The search's episodes: the handle is held over the middle, let go, and the episode ends when the

@@ -11,8 +11,8 @@ namespace palpa::task_search {
 
 /// The antisymmetric Gabor filter of a direction t = 2 pi direction / 32 and sigma = 2^scale px,
 /// L1-normalised:
-///   g = exp(-(x'^2 + gamma^2 y'^2) / (2 sigma^2)) cos(2 pi x'/lambda + pi/2),   x' = x cos t + y
-///   sin t,  y' = -x sin t + y cos t,   lambda = 4 sigma,  gamma = 0.5
+///   g = exp(-(x'^2 + gamma^2 y'^2) / (2 sigma^2)) cos(2 pi x'/lambda + pi/2)
+///   x' = x cos t + y sin t,   y' = -x sin t + y cos t,   lambda = 4 sigma,   gamma = 0.5
 /// cut off at 4 sigma / gamma. Rows: y. Float; an odd number of pixels a side. Source: Edmunds and
 /// Pai, Perceptually augmented simulator design (2012).
 cv::Mat gaborKernel(int direction, int scale);
@@ -40,9 +40,9 @@ struct ValleySearch {
 
 /// Points of a surface's valleys, found from nothing but its heights: with the gradient g and the
 /// Hessian H by central differences, and e the eigenvector of H's largest eigenvalue k,
-///   g . e = 0,   k >= 1 / widest        (the slope is zero along the most concave direction;
-///   Newton's method along e)
-/// Where both eigenvalues are alike it is a pit: g = 0, and no direction. Radius: 1 / k.
+///   g . e = 0,   k >= 1 / widest
+/// (the slope is zero along the most concave direction; by Newton's method along e). Where both
+/// eigenvalues are alike it is a pit: g = 0, and no direction. Radius: 1 / k.
 std::vector<haptics::ValleyPoint> valleyPoints(const HeightField& height,
                                                const ValleySearch& search);
 

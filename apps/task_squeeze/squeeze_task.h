@@ -70,8 +70,8 @@ struct SqueezeTaskSetup {
   std::uint64_t seed = 1;
   std::vector<SqueezeComparison> comparisons;
   std::vector<runtime::BoardPlace> places;
-  training::Role role =
-      training::Role::scored;  ///< of the comparisons, where nothing speaks against it
+  /// of the comparisons, where nothing speaks against it
+  training::Role role = training::Role::scored;
 };
 
 /// The comparison's trials: two things, one after the other and as often as one likes ("done": the

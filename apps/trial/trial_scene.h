@@ -39,8 +39,8 @@ class TrialScene : public runtime::Activity {
     /// Whether somebody wants to see this frame, asked before each; empty: nobody.
     std::function<bool(std::int64_t now_ns)> wanted;
     scene::SceneView* view = nullptr;  ///< null without views
-    scene::HeadDisplay* head =
-        nullptr;  ///< null without one; while it shows, its frames set the pace
+    /// null without one; while it shows, its frames set the pace
+    scene::HeadDisplay* head = nullptr;
     calibration::CameraModel camera;
     Pose X_WA = Pose::Identity(), X_WD = Pose::Identity();
     std::string mark;                   ///< "SIMULATED OPERATOR", ...
@@ -52,8 +52,8 @@ class TrialScene : public runtime::Activity {
     std::function<std::optional<Mat3>(const Pose& X_DT)> tip_covariance_A;
     std::vector<PlacedThing> things;
     std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
-    std::function<void(scene::SceneState&)>
-        more;  ///< adds last what no task shows: a replay's strip
+    /// adds last what no task shows: a replay's strip
+    std::function<void(scene::SceneState&)> more;
     /// Told after every frame what is on the screen, and where the trials stand.
     std::function<void(const scene::SceneState&, const TrialStatus&, std::int64_t now_ns)> watch;
     /// Keys and mouse of a window, once a frame.

@@ -21,9 +21,9 @@ struct TrialStatus {
   double elapsed_s = 0;
   bool emergency_stop = false;
   std::string device;  ///< what the device's driver has to say; empty: nothing
-  haptics::SafetyCause trip =
-      haptics::SafetyCause::none;  ///< the last one, for some seconds: many last a tick only
-  std::string notice;              ///< one line for the person
+  /// the last one, for some seconds: many last a tick only
+  haptics::SafetyCause trip = haptics::SafetyCause::none;
+  std::string notice;  ///< one line for the person
   bool alarm = false;
   bool active() const { return state == TrialState::running || state == TrialState::paused; }
 };

@@ -66,9 +66,12 @@ enum class CameraFaultKind { hidden, black, frozen, wrong_size, gone, ended };
 
 /// What shall go wrong with the virtual camera, and when: "twin/camera_faults" of a station's file,
 /// a list of {"kind", "from_s", "to_s"}; session time.
-///   hidden      something lies over the board     black       the lens is covered         frozen
-///   the same picture over and over wrong_size  pictures of half the size         gone        the
-///   driver reports an error ended    no more pictures, also afterwards
+///   hidden       something lies over the board
+///   black        the lens is covered
+///   frozen       the same picture over and over
+///   wrong_size   pictures of half the size
+///   gone         the driver reports an error
+///   ended        no more pictures, also afterwards
 struct CameraFault {
   CameraFaultKind kind = CameraFaultKind::black;
   double from = 0, to = 0;  ///< s
@@ -88,9 +91,11 @@ enum class SensorFaultKind { unplugged, saturated, drifting, reversed, wrong_sca
 
 /// What shall go wrong with the virtual force sensor, and when: "twin/sensor_faults" of a station's
 /// file, a list of {"kind", "from_s", "to_s"}; session time.
-///   unplugged   no samples         saturated     it says that its gauges are    drifting   its
-///   zero wanders by "rate_N_per_s" reversed    every sign is the other one      wrong_scale forces
-///   and torques times "factor"
+///   unplugged     no samples
+///   saturated     it says that its gauges are
+///   drifting      its zero wanders by "rate_N_per_s"
+///   reversed      every sign is the other one
+///   wrong_scale   forces and torques times "factor"
 struct SensorFault {
   SensorFaultKind kind = SensorFaultKind::unplugged;
   double from = 0, to = 0;  ///< s

@@ -16,8 +16,8 @@ class Hand {
     Pose X_DE = Pose::Identity();  ///< where the own hand is (proprioception)
     Vec3 f_grip_D = Vec3::Zero();  ///< force of the hand on the tool
     const runtime::Displayed* seen = nullptr;
-    Vec3 f_fingers_D =
-        Vec3::Zero();  ///< of the fingers on the tool: without what moves the hand itself
+    /// of the fingers on the tool: without what moves the hand itself
+    Vec3 f_fingers_D = Vec3::Zero();
   };
   /// What is said; grade: of the lump marked last.
   enum class WordKind { none, gives_up, done, grade };

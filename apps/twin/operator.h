@@ -41,8 +41,8 @@ struct OperatorSkill {
   double first_depth = 0.010;    ///< m, taught depth of phase 1
   double vein_distance = 0.042;  ///< m, entry to vein along the needle in the mean anatomy
   double search_margin = 0.008;  ///< m beyond it before the pass counts as dry
-  Vec3 aim_offset_L =
-      Vec3::Zero();  ///< from the sternal end's posterior-superior angle: mean anatomy
+  /// from the sternal end's posterior-superior angle: mean anatomy
+  Vec3 aim_offset_L = Vec3::Zero();
 };
 
 OperatorSkill readOperatorSkill(const std::filesystem::path& file);

@@ -68,10 +68,10 @@ struct PalpatingSkill {
   double wander = 0;                   ///< m, how far from the planned place a press is
   double skip = 0;                     ///< share of places that are left out
   double travel_speed = 0, press_speed = 0;  ///< m/s
-  std::vector<double>
-      pressures;        ///< N, rising, at each of which it is judged how far the surface gave way
-  double reaction = 0;  ///< s
-  double weber = 0;     ///< standard deviation of ln of a judged depth
+  /// N, rising, at each of which it is judged how far the surface gave way
+  std::vector<double> pressures;
+  double reaction = 0;                      ///< s
+  double weber = 0;                         ///< standard deviation of ln of a judged depth
   double looks_closer = 0, marks_from = 0;  ///< ln of how much less it gives way than around
   int again = 0;  ///< presses of a place that seemed firm, before a closer look
   /// Of five presses about the place, at most, in a closer look that follows what is firmer;

@@ -28,8 +28,8 @@ struct VirtualScene {
     kWall,       ///< no table: an even wall that stands still in the picture
   };
   Ground ground = Ground::kTableWithBoard;
-  std::vector<ar::TagGridSpec>
-      plates;  ///< free sheets, known by their index; a single tag is 1 x 1
+  /// free sheets, known by their index; a single tag is 1 x 1
+  std::vector<ar::TagGridSpec> plates;
 };
 
 /// Where one of the scene's plates is. B: the frame of its grid, as W is the board's

@@ -18,8 +18,8 @@ struct XrRuntime {
   XrSystemId system = XR_NULL_SYSTEM_ID;
   std::string name;  ///< "<headset> by <runtime>"
   std::array<XrViewConfigurationView, 2> views;
-  XrEnvironmentBlendMode blend =
-      XR_ENVIRONMENT_BLEND_MODE_OPAQUE;  ///< the one that it prefers of those that we know
+  /// the one that it prefers of those that we know
+  XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
 };
 
 /// Throws Error, in words.

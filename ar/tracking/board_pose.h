@@ -28,8 +28,8 @@ struct BoardPose {
   Pose X_CW = Pose::Identity();
   Eigen::Matrix<double, 6, 6> covariance;  ///< of (rotation vector, translation) in C, rad and m
   double rms_px = 0;  ///< reprojection error: root of the mean squared distance
-  double rms_other_px =
-      0;             ///< of the second solution of the planar pose; infinite when there is none
+  /// of the second solution of the planar pose; infinite when there is none
+  double rms_other_px = 0;
   int points = 0;    ///< used
   int rejected = 0;  ///< left out because they fit no plane with the others
 };

@@ -60,8 +60,8 @@ struct AugmentationPlan {
   std::uint32_t count = 0;
   std::uint32_t reserved = 0;
   double largest = 0;  ///< N, of all together
-  double steepest =
-      1000;  ///< N/m: attraction and fixture rise no steeper, so that the device can hold them
+  /// N/m: attraction and fixture rise no steeper, so that the device can hold them
+  double steepest = 1000;
   double speed_tau = 0.005;  ///< s, of the speed that parts are told by
   LearnedModel learned;      ///< by which Signal::learned tells
 };
@@ -90,8 +90,8 @@ struct AugmentationInput {
 struct AugmentationState {
   SubtaskState subtasks;
   std::array<double, kMostAugmentations> weight{};  ///< 0 to 1
-  std::array<double, kMostAugmentations>
-      elapsed{};                                   ///< s since its trigger, below 0: not triggered
+  /// s since its trigger, below 0: not triggered
+  std::array<double, kMostAugmentations> elapsed{};
   std::array<double, kMostAugmentations> way{};    ///< s or m, of a vibration
   std::array<Packed3, kMostAugmentations> slow{};  ///< N, low-passed contact force
   std::uint32_t was = 0;      ///< bit i: the trigger of i was there in the last tick

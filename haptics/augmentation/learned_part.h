@@ -16,8 +16,8 @@ using LearnedRow = std::array<double, kLearnedFeatures>;
 /// the least force. All [chosen].
 inline constexpr double kLeastSpeed = 1e-3, kLeastForce_N = 0.02,
                         kLeastShaking_N = 0.005;  ///< m/s, N, N
-inline constexpr double kShakingTau_s =
-    0.008;  ///< what is faster than 1 / (2 pi tau) = 20 Hz is shaking: hands do not do it [chosen]
+/// what is faster than 1 / (2 pi tau) = 20 Hz is shaking: hands do not do it [chosen]
+inline constexpr double kShakingTau_s = 0.008;
 inline constexpr std::int64_t kLearnedStep_ns = 10'000'000;
 
 /// Adds up the ticks of one step.
@@ -42,8 +42,8 @@ inline constexpr int kMostLearnedStates = 8;
 struct LearnedModel {
   std::uint32_t states = 0, reserved = 0;
   std::array<double, kMostLearnedStates> start{};
-  std::array<std::array<double, kMostLearnedStates>, kMostLearnedStates>
-      transition{};  ///< from row to column, for a step
+  /// from row to column, for a step
+  std::array<std::array<double, kMostLearnedStates>, kMostLearnedStates> transition{};
   std::array<LearnedRow, kMostLearnedStates> mean{}, variance{};
 };
 static_assert(std::is_trivially_copyable_v<LearnedModel>);
@@ -58,8 +58,8 @@ struct LearnedState {
 static_assert(std::is_trivially_copyable_v<LearnedState>);
 
 /// The next tick; at a step's end the belief goes on by the forward recursion (Rabiner 1989):
-///   b_j proportional to N(x; mean_j, variance_j) sum_i b_i A_ij,   at first to N(x; mean_j,
-///   variance_j) start_j
+///   b_j proportional to N(x; mean_j, variance_j) sum_i b_i A_ij
+///   at first            N(x; mean_j, variance_j) start_j
 /// Says the most probable state, of equals the lower; what is no number tells nothing. Never
 /// allocates, never throws.
 int learnedState(const LearnedModel& model, double tip_speed, const Vec3& f,

@@ -23,8 +23,8 @@ struct NeedleState {
   Organ pushed = Organ::none;  ///< the wall that is being pushed
   std::uint8_t pushed_leaving = 0;
   std::uint8_t skin_punctures = 0;
-  std::uint8_t was_outside =
-      0;  ///< the point has been, since this state began or the needle was withdrawn
+  /// the point has been, since this state began or the needle was withdrawn
+  std::uint8_t was_outside = 0;
   std::uint8_t reserved[2]{};
 };
 static_assert(std::is_trivially_copyable_v<NeedleState>);
@@ -51,10 +51,9 @@ struct NeedleContact {
 ///   after             axial: -b_layer v - stick-slip(cutting + friction x length)
 ///                     lateral: -k_t x_t about the entry
 ///   walls             K_w x, relaxing, at most K_c x; gives way at peak x wall_scale; what it had
-///   stored is let go
-///                     within `release_tau`, never more than was felt
+///                     stored is let go within `release_tau`, never more than was felt
 ///   always            bone: K_c x penetration of tip and shaft into the capsules, along the
-///   contact normal
+///                     contact normal
 /// A needle that is in the tissue from the first tick on, or that was withdrawn along skin that
 /// bulges, feels nothing until its point has been outside once. A point 5 mm out of the skin is
 /// out, wherever it entered. No force of skin or wall exceeds the one at which they give way.

@@ -33,7 +33,8 @@ static_assert(std::is_trivially_copyable_v<ProbeState>);
 /// One evaluation of a ball (centre p_DT, radius of the materials) against the curved skin and the
 /// bones under it:
 ///   skin   (k x - b v_n) n, the first part relaxing, never pulling; across it stick-slip friction
-///   with the limit mu f_n bone   K_c x along the normal between ball and capsule
+///          with the limit mu f_n
+///   bone   K_c x along the normal between ball and capsule
 /// x: penetration, m; v_n: velocity along the outward normal. k and b in series with the coupling:
 /// k <= K_c. Advances `state`. No allocation, no exception.
 NeedleContact probeContact(const ProbeMaterials& materials, const CouplingLimits& coupling,

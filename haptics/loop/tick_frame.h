@@ -5,8 +5,8 @@
 /// What every tick has before and after its contact, whoever computes that: for this folder only.
 namespace palpa::haptics {
 
-inline constexpr double kLongestStep =
-    0.005;  ///< s: a late tick is not integrated over more than this
+/// s: a late tick is not integrated over more than this
+inline constexpr double kLongestStep = 0.005;
 
 /// A tick on its way.
 struct TickFrame {

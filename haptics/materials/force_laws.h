@@ -23,8 +23,8 @@ double stiffnessOf(const HuntCrossley& law, double x, double rate) noexcept;  //
 
 /// Friction of a surface under a tool that slides over it: Dahl's model (1968) in the tangent
 /// plane, with a viscous term (after Mahvash & Okamura 2006).
-///     F+ = F_c s + (F - F_c s) exp(-sigma |dp| / F_c),   s = dp / |dp|,   F_c = mu f_n;   |F| <=
-///     F_c;   0 off contact
+///     F+ = F_c s + (F - F_c s) exp(-sigma |dp| / F_c)
+///     s = dp / |dp|,   F_c = mu f_n,   |F| <= F_c;   0 off contact
 /// dp: motion of the contact point along the tangent plane. Exact for straight motion at any step.
 /// F is the force with which the tool drags the surface: the surface's on the tool is -(F + B v).
 struct Dahl {

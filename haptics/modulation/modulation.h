@@ -118,11 +118,15 @@ struct Squeezed {
 
 /// From the reactions on both tools (N, tool weights taken off) and their tips (m), no slip and no
 /// inertia of the object:
-///     l = (p1 - p2) / |p1 - p2|,   u_1 = l,   u_2 = -l                        outward
-///     F = (f_r1 - f_r2) . l / 2                                               (10.12-10.14: equal
-///     shares of the weight along l cancel) x = (d0 - |p1 - p2|) / 2 (10.15) d0 = |p1 - p2| + 2
-///     H^-1(F, 0)   at the first tick beyond `least_contact`: a soft thing is some millimetres deep
-///     by then f_w* = f_r* - F u_* f_d* = (k~ x - F) u_* + (weight factor - 1) f_w* (10.11)
+///     l = (p1 - p2) / |p1 - p2|,   u_1 = l,   u_2 = -l         outward
+///     F = (f_r1 - f_r2) . l / 2                                (10.12-10.14: equal shares of the
+///                                                              weight along l cancel)
+///     x = (d0 - |p1 - p2|) / 2                                 (10.15)
+///     d0 = |p1 - p2| + 2 H^-1(F, 0)                            at the first tick beyond
+///                                                              `least_contact`: a soft thing is
+///                                                              some millimetres deep by then
+///     f_w* = f_r* - F u_*
+///     f_d* = (k~ x - F) u_* + (weight factor - 1) f_w*         (10.11)
 /// Which tool is the first does not matter. Zero where one of them does not touch, or for
 /// invalid figures. No allocation, no exception.
 Squeezed modulateSqueeze(const SqueezeModulation& law, const std::array<Vec3, 2>& f_r,

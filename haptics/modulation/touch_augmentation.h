@@ -13,8 +13,8 @@
 namespace palpa::haptics {
 
 struct TouchAugmentation {
-  FrictionModulation
-      surface;  ///< of the whole object; the real friction for the wanted one leaves it as it is
+  /// of the whole object; the real friction for the wanted one leaves it as it is
+  FrictionModulation surface;
   std::array<VirtualInclusion, kMostLumpKinds> kinds;
   double tip_radius = 0;            ///< m, of both tools: each touches at p_M - tip_radius u_n
   std::uint8_t other_friction = 0;  ///< 0: friction stays the real one, and nothing is done for it
@@ -45,8 +45,8 @@ struct AugmentedTouch {
   int iterations = 0;  ///< of all lumps' solvers; at most kMostLumps kMostInclusionIterations
 };
 
-///     f_d* = (k~ x* - f_n*) u_n*  [+ f_targ* - f_real*]  +  sum over lumps (f_T* + f_t* (f_T* .
-///     u_n*) / f_n*)
+///     f_d* = (k~ x* - f_n*) u_n*  [+ f_targ* - f_real*]
+///            +  sum over lumps (f_T* + f_t* (f_T* . u_n*) / f_n*)
 /// Each lump feels both tools, and no other lump. Where there is no contact there is no force. No
 /// allocation, no exception.
 AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,

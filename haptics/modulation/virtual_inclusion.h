@@ -42,10 +42,11 @@ struct InclusionAnswer {
 inline constexpr int kMostInclusionIterations = 24;
 
 /// With the lump resting at p_T0, m; for every tool that touches:
-///     p_Hs = p_H + x u_n,   l0* = |p_Hs - p_T0|                            where the undeformed
-///     surface was, updated every tick l = (l0 / l0*) (l0* - |p_H - p_T|),   p_T = p_T0 + d (10.19)
-///     f_T = H_T(l, l') (p_C - p_T) / |p_C - p_T|,  zero for l <= 0         (10.18; p_C = p_H +
-///     radius u_n, where the source has p_H: its tip was small)
+///     p_Hs = p_H + x u_n,   l0* = |p_Hs - p_T0|       where the undeformed surface was, updated
+///                                                     every tick
+///     l = (l0 / l0*) (l0* - |p_H - p_T|),   p_T = p_T0 + d                 (10.19)
+///     f_T = H_T(l, l') (p_C - p_T) / |p_C - p_T|,  zero for l <= 0         (10.18)
+///     p_C = p_H + radius u_n      where the source has p_H: its tip was small
 /// and for the lump, i = x, y, z:
 ///     sgn(d_i) G_i(|d_i|, sgn(d_i) d_i') = - sum f_T,i                     (10.20)
 /// Rates are backward differences over dt, so all is solved together in every tick: an explicit

@@ -9,12 +9,11 @@ namespace palpa::haptics {
 
 /// Time-domain passivity control (Hannaford and Ryu 2002, with the prediction of Ryu et al. 2004),
 /// at one port, force held for a period:
-///   observer     E += -f_last . dx                 energy the hand has put in, J
-///   prediction   E' = E - f . dx                   the next period, if the hand goes on like this
+///   observer     E += -f_last . dx     energy the hand has put in, J
+///   prediction   E' = E - f . dx       the next period, if the hand goes on like this
 ///   controller   E' < -e:  f -= a v,  a = min((-E' - e) / (T |v|^2), a_max)     e: nobody feels it
 ///   bounds       E <= |f| reach: more than a spring with this force can hold was dissipated, and
-///   is no
-///                credit for later; a debt is forgotten slowly
+///                is no credit for later; a debt is forgotten slowly
 /// `f` is the force on the hand at the port that must not make energy.
 /// Without a new reading the hand has not been seen to move: what was added stays added, and the
 /// time goes to the next reading's step, so that a loop faster than its device is as safe as one in
@@ -22,12 +21,12 @@ namespace palpa::haptics {
 /// so that taking stiffness or friction away from the object is not mistaken for instability.
 struct PassivityLimits {
   double max_damping = 0;  ///< N s/m; 0.2 m / T keeps an injection of a mass m stable; 0: off
-  double unfelt_J =
-      20e-6;  ///< e; a spring of 1 kN/m pressed 3 mm in a second makes 5 uJ by being sampled
+  /// e; a spring of 1 kN/m pressed 3 mm in a second makes 5 uJ by being sampled
+  double unfelt_J = 20e-6;
   double forget_tau = 2;  ///< s, for debts
   double reach = 0.02;    ///< m: half the deepest elastic contact
-  double coulomb =
-      0;  ///< N: friction of the drives, which swallows encoder steps' make-believe energy
+  /// N: friction of the drives, which swallows encoder steps' make-believe energy
+  double coulomb = 0;
 };
 
 struct PassivityState {
@@ -47,8 +46,8 @@ static_assert(std::is_trivially_copyable_v<PassivityState>);
 struct PassivityInput {
   Vec3 p_DE = Vec3::Zero();
   Vec3 f_D = Vec3::Zero();  ///< that the device shall give
-  Vec3 f_object_D =
-      Vec3::Zero();       ///< of a real object on the hand; zero where nothing real is touched
+  /// of a real object on the hand; zero where nothing real is touched
+  Vec3 f_object_D = Vec3::Zero();
   double declared_J = 0;  ///< work that a cue asks leave for in this tick
   double dt = 0.001;
   bool fresh = true;  ///< p_DE is a new reading
@@ -61,12 +60,13 @@ Vec3 keepPassive(const PassivityLimits& limits, PassivityState& state,
 /// The lightest grip that must not make the device shake: a loose pen grip, 2 N s/m.
 inline constexpr double kLightestGrip = 2;
 
-/// Largest stiffness that a device can render with the period T (s) and the virtual damping B (N
-/// s/m):
-///   K <= (b - |B|) / (T/2 + t_d)   b: damping of device and hand (Colgate and Schenkel 1997), t_d:
-///   the device's delay K <= 2 f_c / Delta        f_c: Coulomb friction, Delta: encoder step
-///   (Abbott and Okamura 2005); where both are known K <= what its maker or a measurement says is
-///   stable, where known
+/// Largest stiffness that a device can render with the period T (s) and the virtual damping B
+/// (N s/m):
+///   K <= (b - |B|) / (T/2 + t_d)   b: damping of device and hand (Colgate and Schenkel 1997),
+///                                  t_d: the device's delay
+///   K <= 2 f_c / Delta             f_c: Coulomb friction, Delta: encoder step (Abbott and Okamura
+///                                  2005); where both are known
+///   K <= what its maker or a measurement says is stable, where known
 /// At least 0. Throws nothing; a device without any data gets 0.
 double couplingStiffness(const DeviceCapabilities& device, double period_s,
                          double virtual_damping = 0, double grip_damping = kLightestGrip) noexcept;

@@ -19,16 +19,16 @@ struct SafetyLimits {
   double thermal_tau = 60;              ///< s
   double max_energy_J = 0.25;           ///< net energy given to the hand since the last rest
   std::int64_t silent_ns = 10'000'000;  ///< no new reading for this long: zero force
-  std::int64_t watchdog_ns =
-      10'000'000;  ///< the loop stood still for longer: zero force in its next tick
+  /// the loop stood still for longer: zero force in its next tick
+  std::int64_t watchdog_ns = 10'000'000;
   /// m/s. A movement of 10 cm from rest to rest peaks at 1.875 x 0.1 m / T (minimum jerk, Flash and
   /// Hogan 1985): 5 m/s would be T = 38 ms, less than a reflex takes. Faster is a fault of the
   /// device.
   double max_speed = 5;
-  std::int64_t jump_hold_ns =
-      10'000'000;  ///< steady for this long after a jump before force returns
-  std::uint32_t deadman_button =
-      0;  ///< bits of DeviceReading::buttons, one of them held or no force; 0: off
+  /// steady for this long after a jump before force returns
+  std::int64_t jump_hold_ns = 10'000'000;
+  /// bits of DeviceReading::buttons, one of them held or no force; 0: off
+  std::uint32_t deadman_button = 0;
   std::uint32_t reserved = 0;
 };
 

@@ -85,8 +85,8 @@ static_assert(std::is_trivially_copyable_v<WrenchFilterState>);
 struct ContactWrench {
   Wrench contact;
   bool valid = false;  ///< false: sample unusable, or motion not known yet; zero
-  Packed3
-      p_WK{};  ///< m, where K was, as late as the wrench is; while that is not valid, where it is
+  /// m, where K was, as late as the wrench is; while that is not valid, where it is
+  Packed3 p_WK{};
 };
 
 /// Flags of samples that are not used. An overload is used: it is large, if not exact.

@@ -76,8 +76,9 @@ struct PatternPoint {
 ///   on a hemisphere     from its middle through p, where p is at z >= 0 and in the ball
 ///   on a footprint      the nearest of its circle at z = 0
 ///   between two         the nearest of the upper half of the circle where their spheres meet,
-///   where p is at z >= 0 a vertex            where two footprints' circles cross at z = 0; where
-///   three spheres meet at z > 0
+///                       where p is at z >= 0
+///   a vertex            where two footprints' circles cross at z = 0; where three spheres meet at
+///                       z > 0
 /// each unless another ball holds it; a ball holds what is in it by more than 1e-10. (Under z = 0
 /// the nearest of a hemisphere lies on its edge, and of a half circle at its ends.) Replaces `best`
 /// by what is nearer. Exact to rounding where the 24 bumps nearest to p decide it: those within 3

@@ -13,8 +13,8 @@ namespace palpa::haptics {
 /// bit each for every pixel of a square height map, set where the response of the antisymmetric
 /// Gabor filter of that direction and scale exceeds its threshold. 160 bits a pixel, pixels in
 /// tiles of 8 x 8, so that a moving probe stays in a tile: 1024 x 1024 pixels are 20,971,520 bytes.
-/// Looking up neither allocates nor locks. Pixel (i, j) has its middle at x = (i + 0.5) side / size
-/// - side / 2, y likewise.
+/// Looking up neither allocates nor locks. Pixel (i, j) has its middle at
+/// x = (i + 0.5) side / size - side / 2, y likewise.
 class GaborTable {
  public:
   static constexpr int kDirections = 32, kScales = 5, kTile = 8;

@@ -32,9 +32,10 @@ class EdgedLines {
   vtkNew<vtkActor> edge_, line_;
 };
 
-/// Where 95 % of a point's pixels lie, by the covariance of its place: the ellipse d' (J S J')^-1 d
-/// = 5.99, J the derivative of the projection, in the plane through the point parallel to the
-/// picture. Empty where it would be smaller than `least_px`.
+/// Where 95 % of a point's pixels lie, by the covariance of its place: the ellipse
+///   d' (J S J')^-1 d = 5.99     J: the derivative of the projection
+/// in the plane through the point parallel to the picture. Empty where it would be smaller than
+/// `least_px`.
 std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, const Pose& X_CA,
                                      const Pinhole& camera, double least_px = 2);
 

@@ -30,8 +30,8 @@ TEST(LandmarkRegistration, OfPerfectLandmarksIsExact) {
 
 // Fitzpatrick, West and Maurer 1998, first order: of N landmarks touched to sd per coordinate
 // (fle^2 = 3 sd^2),
-//   TRE^2 = fle^2 (1 / N + (d1^2 / f1^2 + d2^2 / f2^2 + d3^2 / f3^2) / 3)  with the rms distances f
-//   from the principal axes summed over N.
+//   TRE^2 = fle^2 (1 / N + (d1^2 / f1^2 + d2^2 / f2^2 + d3^2 / f3^2) / 3)
+// with the rms distances f from the principal axes summed over N.
 TEST(LandmarkRegistration, PredictsTheErrorThatFitzpatricksFormulaGives) {
   std::vector<TouchedLandmark> landmarks;
   for (int i = 0; i < 8; ++i)

@@ -12,14 +12,13 @@
 /// The whole program is killed (SIGKILL) at random moments of a session. What is proven, without a
 /// hook in it:
 ///   1. what was committed before the kill is there after it: the file is read while the program
-///   writes it;
+///      writes it;
 ///   2. what is there is a prefix of the same session run to its end (same seed, same numbers),
-///   without a gap;
+///      without a gap;
 ///   3. the prefix ends where a commit belongs, on a grid of 100 ticks. In virtual time one thread
-///   does
-///      everything in order of session time, so no tick beyond the next point of the grid can have
-///      been made before the commit that belongs there: at most 200 ticks are lost, two points of
-///      the grid.
+///      does everything in order of session time, so no tick beyond the next point of the grid can
+///      have been made before the commit that belongs there: at most 200 ticks are lost, two points
+///      of the grid.
 /// How many ticks had been made at the kill is not known from outside; 3 bounds it.
 namespace palpa::cli_test {
 namespace {

@@ -36,8 +36,8 @@ class LoopbackLrs {
 
   /// Of the n-th PUT from 0; called in the server's threads. Set before start.
   std::function<Mishap(int)> mishap = [](int) { return Mishap::none; };
-  bool conflicts_on_same =
-      false;  ///< 409 for what it has already, even if it is the same; else 204
+  /// 409 for what it has already, even if it is the same; else 204
+  bool conflicts_on_same = false;
   std::string user = "teacher", password = "secret";  ///< empty user: anybody
 
   struct Stored {  // NOLINT(bugprone-exception-escape): JSON, of which it is made, throws none

@@ -22,8 +22,8 @@ struct ChecklistItem {
   std::string id, text;
   bool major = true;
   std::vector<Rule> rules;
-  bool may_not_arise =
-      false;  ///< a figure that does not apply: it did not arise; else it was not done
+  /// a figure that does not apply: it did not arise; else it was not done
+  bool may_not_arise = false;
   bool byRater() const { return rules.empty(); }
 };
 
@@ -41,8 +41,8 @@ struct Checklist {
   std::string id, title, source;
   std::vector<ChecklistItem> items;
   std::vector<CriticalError> critical;
-  std::vector<double>
-      standards;  ///< shares of items that may be asked for; the first unless said otherwise
+  /// shares of items that may be asked for; the first unless said otherwise
+  std::vector<double> standards;
   Level competent, borderline;
   std::string levels_source;
 };

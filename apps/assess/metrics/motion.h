@@ -36,8 +36,8 @@ std::vector<double> turningSpeedsOf(const Motion& motion);
 
 double pathLength(const Motion& motion);  ///< m: sum of the tip's steps
 
-/// Share by which the path is longer than the straight line from its first to its last point: L / d
-/// - 1. Not a number where they are less than 10 mm apart: a tool that returns has no line to
+/// Share by which the path is longer than the straight line from its first to its last point:
+/// L / d - 1. Not a number where they are less than 10 mm apart: a tool that returns has no line to
 /// compare with.
 double pathInefficiency(const Motion& motion);
 

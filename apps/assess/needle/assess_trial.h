@@ -29,8 +29,8 @@ struct ErrorRules {
 /// task's file.
 struct ScoringRules {
   double sample_rate_Hz = 20;  ///< COL_* counts samples at this rate
-  double clavicle_guide_N =
-      3.0;                      ///< contact with the clavicle below this guides, and is not counted
+  /// contact with the clavicle below this guides, and is not counted
+  double clavicle_guide_N = 3.0;
   double dwell_s = 1.0;         ///< tip in the lumen with the plunger drawn this long: success
   double plunger_drawn = 0.25;  ///< fraction that counts as drawn
   double shaft_point = 0.070;   ///< m behind the tip, second point of ECON

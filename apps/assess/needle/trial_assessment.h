@@ -95,8 +95,8 @@ struct TrialAssessment {
   bool by_path = true;  ///< false: the task has a goal of its own, and only success and time tell
   bool augmented = false;          ///< the task's augmentations added force
   std::vector<SubtaskDose> doses;  ///< of the task's parts
-  int redirections =
-      0;  ///< in phase 2: drawn back > 3 mm, advanced > 3 mm again, > 3 degrees apart
+  /// in phase 2: drawn back > 3 mm, advanced > 3 mm again, > 3 degrees apart
+  int redirections = 0;
   std::vector<metrics::MetricValue> metrics = {};  ///< by the names of metric_table
 };
 

@@ -59,8 +59,8 @@ struct PalpationScore {
   double too_light = 0, too_hard = 0;  ///< share of the time of touching
   double seconds = 0;
   int presses = 0;
-  double closer_force =
-      0;  ///< mean peak of palpating presses over that of searching ones; 0: one of them is missing
+  /// mean peak of palpating presses over that of searching ones; 0: one of them is missing
+  double closer_force = 0;
   int of_normal = 0;  ///< false alarms that lie on normal anatomy
 
   double sensitivity() const {

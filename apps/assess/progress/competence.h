@@ -18,8 +18,8 @@ struct Competence {
       /// Trial (from 1) at which the acceptable rate was accepted; none: never, or an unacceptable
       /// rate was found after it
       reached;
-  std::optional<std::size_t>
-      lost;  ///< trial at which an unacceptable rate was found, and no acceptable one since
+  /// trial at which an unacceptable rate was found, and no acceptable one since
+  std::optional<std::size_t> lost;
   std::size_t minimum = 0;  ///< fewest trials that can certify anybody: the shortest clean run
   /// Trials without failure from now on until the acceptable rate is accepted; 0 once it was
   std::size_t still_clean = 0;
@@ -44,8 +44,8 @@ struct RetentionGap {
   std::size_t before_n = 0, after_n = 0;
   double before = 0, after = 0;
   double loss = 0;  ///< positive: worse than before, in the metric's unit
-  std::optional<std::pair<double, double>>
-      interval;  ///< 95 % of `loss` (bootstrap over trials); none for fewer than three on a side
+  /// 95 % of `loss` (bootstrap over trials); none for fewer than three on a side
+  std::optional<std::pair<double, double>> interval;
 };
 
 inline constexpr int kShortestPause_days = 7;

@@ -38,8 +38,8 @@ struct SearchTrial {
   double seconds = 0;  ///< pauses left out
   double path_m = 0;   ///< of the probe, in the hand
   double mean_force_N = 0,
-         peak_force_N =
-             0;  ///< of the floor and its cues in contact; what holds the handle up is not counted
+         /// of the floor and its cues in contact; what holds the handle up is not counted
+      peak_force_N = 0;
   std::array<double, 3> visited_s{};  ///< seconds on each element
   std::vector<SubtaskDose> doses;
 };
@@ -61,17 +61,17 @@ struct SearchTally {
 /// episodes are left out.
 std::vector<SearchTally> talliesOf(const std::vector<SearchTrial>& trials);
 
-/// How much of what the degraded device loses the augmented one gives back: (augmented - degraded)
-/// / (real - degraded), of shares found. The interval, 95 %, is by the bootstrap over episodes,
-/// each mode drawn by itself (Efron 1979): 2.5 % and 97.5 % quantiles of 10,000 resamples.
-/// * With k found of n, a resample's episodes are found with probability (k + 1/2) / (n + 1), not k
-/// / n: a mode in which all or none was found would not vary at all, and the interval be far too
-/// short.
+/// How much of what the degraded device loses the augmented one gives back, of shares found:
+///   (augmented - degraded) / (real - degraded)
+/// The interval, 95 %, is by the bootstrap over episodes, each mode drawn by itself (Efron 1979):
+/// 2.5 % and 97.5 % quantiles of 10,000 resamples.
+/// * With k found of n, a resample's episodes are found with probability (k + 1/2) / (n + 1), not
+///   k / n: a mode in which all or none was found would not vary at all, and the interval be far
+///   too short.
 /// * In a resample whose real device is not better than its degraded one the ratio means nothing.
-/// It counts against both ends, as minus infinity for the low one and as plus infinity for the high
-/// one:
-///   where more than 2.5 % are so, the interval is unbounded, as Fieller's is when the denominator
-///   may be zero.
+///   It counts against both ends, as minus infinity for the low one and as plus infinity for the
+///   high one: where more than 2.5 % are so, the interval is unbounded, as Fieller's is when the
+///   denominator may be zero.
 /// So `low` is above 0 only if augmented > degraded and real > degraded in 97.5 % of the resamples.
 struct Recovery {
   double share = 0, low = 0, high = 0;  ///< low and high may be infinite

@@ -52,8 +52,8 @@ struct SharesAtRatio {
 
 /// The ratio that is told right in three of four answers. With two things felt one after the other,
 /// each with a standard deviation s of the logarithm,
-///     P(right) = Phi(|ln ratio| / (sqrt(2) s)),   ratio_75 = exp(0.6745 sqrt(2) s) (Green & Swets
-///     1966: two intervals, a forced choice)
+///     P(right) = Phi(|ln ratio| / (sqrt(2) s)),   ratio_75 = exp(0.6745 sqrt(2) s)
+/// (Green & Swets 1966: two intervals, a forced choice),
 /// s by maximum likelihood; the interval holds what the likelihood ratio does not refuse at 95 %
 /// (Wilks 1938). Neither end: the answers do not bound it there.
 struct Threshold {
@@ -64,8 +64,8 @@ struct Threshold {
 struct Discrimination {
   std::vector<SharesAtRatio> shares;  ///< by rising ratio
   int right = 0, of = 0;
-  std::optional<Threshold>
-      threshold;  ///< none: fewer than 8 answers, all right, or no better than chance
+  /// none: fewer than 8 answers, all right, or no better than chance
+  std::optional<Threshold> threshold;
 };
 
 /// Of the answered trials about one property.

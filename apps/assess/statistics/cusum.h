@@ -15,13 +15,14 @@ struct CusumRates {
 
 /// The sequential probability ratio test as a sum: + (1 - s) for a failure, - s for a success. With
 /// P = ln(p1/p0), Q = ln((1-p0)/(1-p1)):
-///   s = Q / (P + Q),  h_accept = ln((1-alpha)/beta) / (P + Q),  h_reject = ln((1-beta)/alpha) / (P
-///   + Q).
+///   s = Q / (P + Q)
+///   h_accept = ln((1-alpha)/beta) / (P + Q)
+///   h_reject = ln((1-beta)/alpha) / (P + Q)
 /// Source: Wald 1947; Bolsin and Colson, Int. J. Qual. Health Care 12, 2000.
 struct CusumLimits {
   double s = 0, h_accept = 0, h_reject = 0;
-  int shortest_clean_run =
-      0;  ///< fewest trials, all successes, after which the acceptable rate is accepted
+  /// fewest trials, all successes, after which the acceptable rate is accepted
+  int shortest_clean_run = 0;
 };
 
 /// Throws Error for rates out of range or order.

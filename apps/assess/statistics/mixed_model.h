@@ -27,13 +27,13 @@ struct MixedModel {
 };
 
 /// By restricted maximum likelihood (Patterson and Thompson 1971), the spread's one free ratio
-/// found on a line. With r = sd_subject^2 / sd_residual^2 and n_i trials of subject i,  V_i^-1 = I
-/// - r / (1 + n_i r) 11'  and  log det V_i = log(1 + n_i r). Degrees of freedom between and within
-/// subjects (Pinheiro and Bates 2000, section 2.4.2): for what differs between subjects only,
-/// subjects less such columns (the mean among them); for the rest, trials less subjects less
-/// columns of that kind. `x`: a row a trial, the first column ones; `subject`: any number a
-/// subject. Throws Error for tables of unlike length, a value that is not finite, columns that say
-/// the same, too few subjects or trials, and where nothing varies.
+/// found on a line. With r = sd_subject^2 / sd_residual^2 and n_i trials of subject i,
+///   V_i^-1 = I - r / (1 + n_i r) 11',   log det V_i = log(1 + n_i r)
+/// Degrees of freedom between and within subjects (Pinheiro and Bates 2000, section 2.4.2): for
+/// what differs between subjects only, subjects less such columns (the mean among them); for the
+/// rest, trials less subjects less columns of that kind. `x`: a row a trial, the first column ones;
+/// `subject`: any number a subject. Throws Error for tables of unlike length, a value that is not
+/// finite, columns that say the same, too few subjects or trials, and where nothing varies.
 MixedModel fitMixedModel(const Eigen::VectorXd& y, const Eigen::MatrixXd& x,
                          const std::vector<std::string>& names, const std::vector<int>& subject);
 

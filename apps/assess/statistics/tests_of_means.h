@@ -41,8 +41,8 @@ struct Anova {
   double p = 1;
   double squares_between = 0, squares_within = 0;
   double eta_squared = 0;  ///< share of all squares that lies between groups
-  double omega_squared =
-      0;  ///< the same without its bias, (SSB - dfB MSW) / (SST + MSW); can be below 0
+  /// the same without its bias, (SSB - dfB MSW) / (SST + MSW); can be below 0
+  double omega_squared = 0;
 };
 
 /// Throws Error for fewer than two groups, an empty one, no value to spare, and where nothing

@@ -12,8 +12,8 @@
 namespace palpa::igt {
 
 inline constexpr const char* kReference = "Reference";  ///< W: the board on the table
-inline constexpr const char* kPatient =
-    "Patient";  ///< anatomy, in RAS; "Ras" where a scene is meant that is RAS as a whole
+/// anatomy, in RAS; "Ras" where a scene is meant that is RAS as a whole
+inline constexpr const char* kPatient = "Patient";
 inline constexpr const char* kRas = "Ras";
 
 /// "NeedleTipToReference". A name on the wire holds at most 20 characters.

@@ -71,8 +71,8 @@ std::optional<TrackingRequest> readTrackingRequest(View content);
 /// What came, and what was passed over.
 struct StreamCounts {
   std::uint64_t messages = 0;  ///< whole, with the right checksum, of a type that is read here
-  std::uint64_t skipped =
-      0;  ///< of other types, of later versions, or too large to be kept: passed over by their size
+  /// of other types, of later versions, or too large to be kept: passed over by their size
+  std::uint64_t skipped = 0;
   std::uint64_t damaged = 0;  ///< dropped: wrong checksum, or sizes that do not add up
 };
 

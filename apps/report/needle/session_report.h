@@ -36,8 +36,8 @@ struct SessionReport {
   std::string when;        ///< date and time, empty in virtual time
   std::vector<TrialPage> trials;
   std::vector<Fact> station;  ///< device, camera, display, rates
-  std::vector<Fact>
-      registration;            ///< registration error and its source, simulated truth named as such
+  /// registration error and its source, simulated truth named as such
+  std::vector<Fact> registration;
   std::vector<Fact> notes;     ///< lateness, lost tracking, safety trips
   std::vector<Fact> taxonomy;  ///< "Where this task stands"
   SubtaskSection parts;

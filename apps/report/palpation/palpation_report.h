@@ -36,16 +36,26 @@ void writePalpationReport(const PalpationReport& report, const std::filesystem::
 
 /// trials.csv: header row, then one row a trial. No date, no path. Lengths in mm, forces in N,
 /// shares from 0 to 1, yes and no as 1 and 0; empty: there was nothing to measure.
-///   USER_ID TRIAL SEED SIMULATED FF (force feedback) OUTCOME (done, time, aborted, void)
-///   LUMPS (of the case) FOUND MISSED FALSE_ALARMS REPEATED (marks of a lump that had been found)
-///   CLEAR_QUADRANTS (quarters without a lump) WRONG_QUADRANTS (those of them that a false alarm
-///   calls ill) COVERAGE_LIGHT COVERAGE_MEDIUM COVERAGE_DEEP (felt at this pressure or a deeper
-///   one) TWICE (felt again) PATTERN PATTERN_KEPT PEAK_N MEAN_N TOO_LIGHT TOO_HARD (of the time of
-///   touching) CLOSER_FORCE (mean peak of closer looks over that of searching presses) PRESSES
-///   TIME_S GUIDED (of the time) ERROR_MEAN_MM (between mark and lump, of the lumps found)
-///   SIZE_ERROR_MEAN_MM (said less true, with sign, of those graded) AT_STANDARD (this trial;
-///   nobody passes by one) AUGMENTED (cues were added to the forces), then of each part of the task
-///   what subtaskColumns says
+///   USER_ID TRIAL SEED SIMULATED
+///   FF                               force feedback
+///   OUTCOME                          done, time, aborted, void
+///   LUMPS FOUND MISSED               of the case
+///   FALSE_ALARMS
+///   REPEATED                         marks of a lump that had been found
+///   CLEAR_QUADRANTS                  quarters without a lump
+///   WRONG_QUADRANTS                  those of them that a false alarm calls ill
+///   COVERAGE_LIGHT COVERAGE_MEDIUM COVERAGE_DEEP     felt at this pressure or a deeper one
+///   TWICE                            felt again
+///   PATTERN PATTERN_KEPT PEAK_N MEAN_N
+///   TOO_LIGHT TOO_HARD               of the time of touching
+///   CLOSER_FORCE                     mean peak of closer looks over that of searching presses
+///   PRESSES TIME_S
+///   GUIDED                           of the time
+///   ERROR_MEAN_MM                    between mark and lump, of the lumps found
+///   SIZE_ERROR_MEAN_MM               said less true, with sign, of those graded
+///   AT_STANDARD                      this trial; nobody passes by one
+///   AUGMENTED                        cues were added to the forces
+/// then of each part of the task what subtaskColumns says.
 void writePalpationCsv(const std::string& user_id,
                        const std::vector<assess::PalpationAssessment>& trials,
                        const std::filesystem::path& file);

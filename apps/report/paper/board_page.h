@@ -9,8 +9,8 @@ namespace palpa::report {
 
 /// What a board is printed on.
 struct BoardPage {
-  std::string paper =
-      "a4";  ///< a4, a3, a2, a1, letter, tabloid; "fit": as large as board and scale bar need
+  /// a4, a3, a2, a1, letter, tabloid; "fit": as large as board and scale bar need
+  std::string paper = "a4";
   std::string words;  ///< which board it is, below it
   int dpi = 300;      ///< of a PNG
 };

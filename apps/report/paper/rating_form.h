@@ -15,8 +15,8 @@ struct RatingForm {
   std::string trainee, session, when;                ///< of the trial; empty: lines to write on
   int trial = 0;
   bool simulated = false;
-  std::vector<competence::MarkedItem> marks =
-      {};  ///< what the simulator says, shown faintly; empty: a blank form
+  /// what the simulator says, shown faintly; empty: a blank form
+  std::vector<competence::MarkedItem> marks = {};
 };
 
 /// One self-contained page for A4, black on white. The rater's boxes stay empty: what the simulator

@@ -16,8 +16,8 @@ namespace palpa::report {
 struct PracticePage {
   std::string title, name;  ///< of the browser's tab: "Progress", "T017"
   std::string heading;
-  std::vector<std::pair<std::string, std::string>>
-      who;  ///< name and value; what is empty is left out
+  /// name and value; what is empty is left out
+  std::vector<std::pair<std::string, std::string>> who;
   std::string footer, software;
 };
 std::string practiceHtml(const PracticePage& page,

@@ -27,13 +27,17 @@ struct SearchReport {
 void writeSearchReport(const SearchReport& report, const std::filesystem::path& file);
 
 /// trials.csv: header row, then one row an episode. No date, no path. Yes and no as 1 and 0.
-///   USER_ID TRIAL SEED SIMULATED FF OUTCOME (done, time, aborted, void) BLOCK MODE (real,
-///   degraded, augmented) ORIENTATION_DEG TARGET CHOSEN (elements, 0 to 2; -1: none) FOUND TIME_S
-///   PATH_M MEAN_N PEAK_N VISIT_0_S VISIT_1_S VISIT_2_S (on each element)
+///   USER_ID TRIAL SEED SIMULATED FF
+///   OUTCOME                          done, time, aborted, void
+///   BLOCK
+///   MODE                             real, degraded, augmented
+///   ORIENTATION_DEG
+///   TARGET CHOSEN                    elements, 0 to 2; -1: none
+///   FOUND TIME_S PATH_M MEAN_N PEAK_N
+///   VISIT_0_S VISIT_1_S VISIT_2_S    on each element
 /// and for every part of the task that the first episode has a dose of, <NAME> in capitals with _
-/// for whatever is no letter or digit:
-///   <NAME>_ON_S <NAME>_TIMES <NAME>_AUGMENTED_S <NAME>_IMPULSE_NS; empty in an episode without
-///   that part
+/// for whatever is no letter or digit (empty in an episode without that part):
+///   <NAME>_ON_S <NAME>_TIMES <NAME>_AUGMENTED_S <NAME>_IMPULSE_NS
 void writeSearchCsv(const std::string& user_id, const std::vector<assess::SearchTrial>& trials,
                     const std::filesystem::path& file);
 

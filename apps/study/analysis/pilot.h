@@ -32,8 +32,8 @@ struct Pilot {
       experts;  ///< first and second group; experts empty: there is one group only
   std::vector<std::string> conditions;
   std::vector<LearningCell> learning;  ///< of the first group: by condition, then figure
-  std::vector<Comparison>
-      learning_between;            ///< learning rates of the second condition against the first
+  /// learning rates of the second condition against the first
+  std::vector<Comparison> learning_between;
   std::vector<Comparison> groups;  ///< second group against the first, by condition, then figure
   std::vector<Comparison> learning_published, groups_published;
 };

@@ -22,8 +22,8 @@ struct StudyDesign {
   std::string title = "Study";
   std::vector<std::string> groups,
       conditions;  ///< in the order of the protocol; what is not named follows as it appears
-  std::map<std::string, std::string>
-      words;  ///< how groups, conditions and blocks are called in sentences; default: by their name
+  /// how groups, conditions and blocks are called in sentences; default: by their name
+  std::map<std::string, std::string> words;
   std::vector<std::string> metrics;  ///< of the general analysis; empty: all that vary
   bool as_published = false;         ///< beside: as the published study did
   std::uint64_t seed = 1;            ///< of the bootstrap

@@ -19,8 +19,8 @@ struct StudyCopy {
   std::string protocol_sha256;
   record::Enrolment enrolment;
   std::vector<study::DoneTrial> trials;
-  std::vector<record::ItemAnswer>
-      answers;           ///< first those that the records have, their words left out here
+  /// first those that the records have, their words left out here
+  std::vector<record::ItemAnswer> answers;
   std::size_t sent = 0;  ///< how many those are
 };
 

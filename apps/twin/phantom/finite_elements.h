@@ -79,10 +79,10 @@ FacePressure pressureOn(const std::array<Vec3, 4>& before, const std::array<Vec3
 struct BlockMesh {
   std::vector<Vec3> nodes;                 ///< m, undeformed
   std::vector<std::array<int, 8>> bricks;  ///< nodes counter-clockwise below, then above
-  std::vector<std::array<int, 4>>
-      top;  ///< faces that tools may touch, counter-clockwise from above
-  std::vector<bool>
-      fixed;  ///< of every coordinate of every node: glued below, in its plane at y = 0
+  /// faces that tools may touch, counter-clockwise from above
+  std::vector<std::array<int, 4>> top;
+  /// of every coordinate of every node: glued below, in its plane at y = 0
+  std::vector<bool> fixed;
 };
 
 BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius,
