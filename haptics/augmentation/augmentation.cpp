@@ -160,7 +160,6 @@ Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,
     *state = told;
     return out;
   }
-  Vec3 heedless = Vec3::Zero();
   for (std::size_t i = 0; i < std::min<std::size_t>(plan.count, kMostAugmentations); ++i) {
     const ActiveAugmentation part{plan.each[i], in, *state, i};
     const bool on = part.a.subtask == kAnySubtask || (out.subtasks >> part.a.subtask & 1u);
@@ -172,11 +171,11 @@ Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,
     const Vec3 f = forceOf(part, plan.steepest);
     if (f.squaredNorm() > 0) out.active |= 1u << i;
     out.f += f;
-    if (!heedsMotion(part.a.kind)) heedless += f;
+    if (!heedsMotion(part.a.kind)) out.f_source += f;
   }
   const double size = out.f.norm(), share = size > plan.largest ? plan.largest / size : 1;
   out.f *= share;
-  out.work_J = share * heedless.dot(in.dp);
+  out.f_source *= share;
   return out;
 }
 

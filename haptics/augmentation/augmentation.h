@@ -102,9 +102,9 @@ static_assert(std::is_trivially_copyable_v<AugmentationState>);
 
 struct Augmented {
   Vec3 f = Vec3::Zero();  ///< N, on the tool
-  /// That pulses and vibrations, which heed no motion, give to the hand in this tick: declared to
-  /// the passivity observer
-  double work_J = 0;
+  /// N, the part of `f` that heeds no motion: pulses, vibrations, reliefs. A source of its own,
+  /// which the passivity observer leaves out of its account.
+  Vec3 f_source = Vec3::Zero();
   std::uint32_t subtasks = 0;  ///< bit i: part i is on
   std::uint32_t active = 0;    ///< bit i: augmentation i adds a force
   std::uint32_t began = 0;     ///< bit i: triggered in this tick

@@ -155,7 +155,7 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& f
   port.p_DE = in.p_DE;
   port.f_D = f_D;
   port.f_object_D = objectForce(config, frame.record.sensed);
-  port.declared_J = fresh * frame.work_J;
+  port.f_source_D = fresh * frame.f_source_D;
   port.fresh = in.sequence != state.passivity.sequence;
   port.dt = in.dt;
   Vec3 f_passive_D = keepPassive(config.passivity, state.passivity, port);

@@ -10,7 +10,6 @@ namespace {
 void settle(const PassivityLimits& limits, PassivityState& state, double force, double dt) {
   state.energy_J = std::min(state.energy_J, force * limits.reach);
   if (state.energy_J < 0) state.energy_J *= 1 - std::min(dt / limits.forget_tau, 1.0);
-  if (force == 0) state.declared_J = 0;
 }
 
 }  // namespace
@@ -18,24 +17,23 @@ void settle(const PassivityLimits& limits, PassivityState& state, double force, 
 Vec3 keepPassive(const PassivityLimits& limits, PassivityState& state,
                  const PassivityInput& in) noexcept {
   state.injecting = 0;
-  if (!in.p_DE.allFinite() || !in.f_D.allFinite() || !in.f_object_D.allFinite()) {
+  const Vec3 f_port = in.f_D - in.f_source_D + in.f_object_D;
+  if (!in.p_DE.allFinite() || !f_port.allFinite()) {
     state = PassivityState{};
     return in.f_D;
   }
   state.since_s += in.dt;
-  state.declared_J += in.declared_J;
   if (state.started && !in.fresh) {
     state.injecting = unpack(state.added_D).squaredNorm() > 0;
     return in.f_D + unpack(state.added_D);
   }
   const double dt = state.since_s;
   state.since_s = 0;
-  const Vec3 f_port = in.f_D + in.f_object_D;
   const Vec3 dx = state.started ? Vec3(in.p_DE - unpack(state.p_last_D)) : Vec3::Zero();
   const double slip = limits.coulomb * dx.norm();
   state.energy_J += -unpack(state.f_last_D).dot(dx) + slip;
   Vec3 added = Vec3::Zero();
-  const double expected = state.energy_J + state.declared_J - f_port.dot(dx) + slip;
+  const double expected = state.energy_J - f_port.dot(dx) + slip;
   const double debt = -expected - limits.unfelt_J, moved2 = dx.squaredNorm();
   if (debt > 0 && moved2 > 0 && limits.max_damping > 0 && dt > 0) {
     const double damping = std::min(debt * dt / moved2, limits.max_damping);
@@ -43,12 +41,11 @@ Vec3 keepPassive(const PassivityLimits& limits, PassivityState& state,
     state.injecting = 1;
   }
   settle(limits, state, f_port.norm(), dt);
-  Vec3 f = in.f_D + added;
   state.added_D = pack(added);
-  state.f_last_D = pack(Vec3(f + in.f_object_D));
+  state.f_last_D = pack(Vec3(f_port + added));
   state.p_last_D = pack(in.p_DE);
   state.started = 1;
-  return f;
+  return in.f_D + added;
 }
 
 double couplingStiffness(const DeviceCapabilities& device, double period_s, double virtual_damping,

@@ -14,7 +14,9 @@ namespace palpa::haptics {
 ///   controller   E' < -e:  f -= a v,  a = min((-E' - e) / (T |v|^2), a_max)     e: nobody feels it
 ///   bounds       E <= |f| reach: more than a spring with this force can hold was dissipated, and
 ///                is no credit for later; a debt is forgotten slowly
-/// `f` is the force on the hand at the port that must not make energy.
+/// `f` is the force on the hand at the port that must not make energy. A cue that heeds no motion
+/// is a source, bounded by its plan: it may give its work away, and no more than that. Its force is
+/// left out of `f` and so of the account, which is owed nothing by it and owes it nothing.
 /// Without a new reading the hand has not been seen to move: what was added stays added, and the
 /// time goes to the next reading's step, so that a loop faster than its device is as safe as one in
 /// step with it. Where a real object is felt, that is the hand's port (object and device together),
@@ -33,7 +35,6 @@ struct PassivityState {
   Packed3 f_last_D{};  ///< of the port, held since the last tick
   Packed3 p_last_D{};
   double energy_J = 0;         ///< negative: made by us
-  double declared_J = 0;       ///< what open-loop cues may still give away
   Packed3 added_D{};           ///< damping force, held until the next reading
   double since_s = 0;          ///< since the last new reading
   std::uint64_t sequence = 0;  ///< of that reading, as the tick counts them
@@ -48,7 +49,7 @@ struct PassivityInput {
   Vec3 f_D = Vec3::Zero();  ///< that the device shall give
   /// of a real object on the hand; zero where nothing real is touched
   Vec3 f_object_D = Vec3::Zero();
-  double declared_J = 0;  ///< work that a cue asks leave for in this tick
+  Vec3 f_source_D = Vec3::Zero();  ///< the part of `f_D` that heeds no motion
   double dt = 0.001;
   bool fresh = true;  ///< p_DE is a new reading
 };

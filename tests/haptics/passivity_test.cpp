@@ -161,8 +161,8 @@ TEST(Passivity, SofteningARealObjectIsNotMistakenForInstability) {
   EXPECT_GT(strongest(false), 0.05);
 }
 
-TEST(Passivity, ADeclaredPulseMayGiveItsWorkAway) {
-  const auto injected = [](double declared_J) {
+TEST(Passivity, ASourceMayGiveItsWorkAway) {
+  const auto injected = [](bool told) {
     PassivityLimits limits;
     limits.max_damping = 20;
     PassivityState state;
@@ -171,14 +171,35 @@ TEST(Passivity, ADeclaredPulseMayGiveItsWorkAway) {
       PassivityInput in;
       in.p_DE = {1e-4 * k, 0, 0};
       in.f_D = {2, 0, 0};  // pushes along with the motion: 2 N over 1 mm
-      if (k == 0) in.declared_J = declared_J;
+      if (told) in.f_source_D = in.f_D;
       keepPassive(limits, state, in);
       count += state.injecting;
     }
     return count;
   };
-  EXPECT_EQ(injected(3e-3), 0);
-  EXPECT_GT(injected(0), 5);
+  EXPECT_EQ(injected(true), 0);
+  EXPECT_GT(injected(false), 5);
+}
+
+/// A hand that goes to and fro, a pulse along its way or against it, free air, then a wall: without
+/// the pulse and with it nothing is added, and the wall's account is the same.
+TEST(Passivity, ASourceLeavesNeitherDebtNorCredit) {
+  PassivityLimits limits;
+  limits.max_damping = 20;
+  const auto goneThrough = [&](double pulse_N) {
+    PassivityState state;
+    for (int k = 0; k < 400; ++k) {
+      PassivityInput in;
+      in.p_DE = {1e-3 * std::sin(0.05 * k), 0, 0};
+      if (k >= 20 && k < 40) in.f_source_D = in.f_D = {pulse_N, 0, 0};
+      if (k >= 200) in.f_D = {-100 * std::max(0.0, in.p_DE.x()), 0, 0};
+      EXPECT_EQ(keepPassive(limits, state, in), in.f_D) << pulse_N << " N, tick " << k;
+    }
+    return state;
+  };
+  const PassivityState without = goneThrough(0);
+  for (const double pulse_N : {0.8, -0.8, 5.0, -5.0})
+    EXPECT_EQ(goneThrough(pulse_N).energy_J, without.energy_J) << pulse_N;
 }
 
 TEST(Passivity, WhatIsNotANumberStartsAnew) {
