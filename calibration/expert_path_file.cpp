@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::json;
 using Ordered = nlohmann::ordered_json;
 
-constexpr int kPathVersion = 1;
+constexpr int kPathVersion = 2;
 constexpr const char* kFormat = "palpa expert path";
 constexpr const char* kRemedy = "Calibrate the experts' path again";
 
@@ -35,57 +35,87 @@ Vec3 unitVectorIn(const JsonFile& file, const std::string& field) {
 
 Ordered inMm(const Vec3& v) { return {v.x() / kMm, v.y() / kMm, v.z() / kMm}; }
 
+/// How each version names what it holds: version 1 in L, of an average body.
+struct Names {
+  const char *entry, *direction, *line_from, *line_to;
+};
+constexpr Names kInL{"entry_L_mm", "direction_L", "line_from_L_mm", "line_to_L_mm"},
+    kOwn{"entry_mm", "direction", "line_from_mm", "line_to_mm"};
+
 Ordered toJson(const ExpertPath& path) {
   return {{"format", kFormat},
           {"version", kPathVersion},
           {"simulated", path.simulated},
           {"made_by", path.made_by},
           {"frame",
-           "medial, posterior, cephalad; origin: junction of the clavicle's medial and "
-           "middle thirds"},
+           "the teaching line of each body: along it, across it inward, across it cephalad; entry "
+           "and line_from from its entry point, line_to from the middle of its vein; direction "
+           "against the way from where the needle is turned to the vein"},
           {"trials", path.trials},
           {"left_out", path.left_out},
           {"experts", path.experts},
-          {"entry_L_mm", inMm(path.entry_L)},
+          {kOwn.entry, inMm(path.entry)},
           {"entry_sd_mm", path.entry_sd / kMm},
+          {"entry_acceptable_mm", path.entry_acceptable / kMm},
           {"depth_mm", path.depth / kMm},
           {"depth_sd_mm", path.depth_sd / kMm},
-          {"direction_L", {path.direction_L.x(), path.direction_L.y(), path.direction_L.z()}},
+          {"depth_acceptable_mm", path.depth_acceptable / kMm},
+          {kOwn.direction, {path.direction.x(), path.direction.y(), path.direction.z()}},
           {"direction_sd_deg", path.direction_sd / kDegree},
           {"direction_acceptable_deg", path.direction_acceptable / kDegree},
-          {"line_from_L_mm", inMm(path.line_from_L)},
-          {"line_to_L_mm", inMm(path.line_to_L)}};
+          {kOwn.line_from, inMm(path.line_from)},
+          {kOwn.line_to, inMm(path.line_to)},
+          {"line_sd_mm", path.line_sd / kMm},
+          {"line_acceptable_mm", path.line_acceptable / kMm}};
 }
 
 bool allFinite(const ExpertPath& path) {
-  return path.entry_L.allFinite() && path.direction_L.allFinite() && path.line_from_L.allFinite() &&
-         path.line_to_L.allFinite() &&
+  return path.entry.allFinite() && path.direction.allFinite() && path.line_from.allFinite() &&
+         path.line_to.allFinite() &&
          std::isfinite(path.entry_sd + path.depth + path.depth_sd + path.direction_sd +
-                       path.direction_acceptable);
+                       path.line_sd + path.entry_acceptable + path.depth_acceptable +
+                       path.direction_acceptable + path.line_acceptable);
+}
+
+constexpr double kFar_mm = 500;  // nothing that is taught lies farther from the clavicle
+
+void readVectors(const JsonFile& file, const Names& names, ExpertPath* path) {
+  path->entry = kMm * vectorIn(file, names.entry, kFar_mm);
+  path->direction = unitVectorIn(file, names.direction);
+  path->line_from = kMm * vectorIn(file, names.line_from, kFar_mm);
+  path->line_to = kMm * vectorIn(file, names.line_to, kFar_mm);
+}
+
+void readOwnLine(const JsonFile& file, ExpertPath* path) {
+  readVectors(file, kOwn, path);
+  path->line_sd = kMm * file.number("line_sd_mm", 0, 10);
+  path->entry_acceptable = kMm * file.number("entry_acceptable_mm", 0.1, 50);
+  path->depth_acceptable = kMm * file.number("depth_acceptable_mm", 0.1, 50);
+  path->line_acceptable = kMm * file.number("line_acceptable_mm", 0.1, 50);
+}
+
+void readInLandmarks(const JsonFile& file, ExpertPath* path) {
+  readVectors(file, kInL, path);
+  if ((path->line_to - path->line_from).norm() < 0.001)
+    file.refuse(kInL.line_to, "makes a line of no length");
 }
 
 ExpertPath pathIn(const JsonFile& file) {
   if (file.text("format") != kFormat) file.refuse("format", "is not that of an expert path");
-  file.needVersion(kPathVersion);
-  constexpr double kFar_mm = 500;  // nothing that is taught lies farther from the clavicle
   constexpr int kMost = 1'000'000;
   ExpertPath path;
+  path.axes = file.needVersion(kPathVersion) == 1 ? PathAxes::landmarks : PathAxes::own_line;
   path.simulated = file.flag("simulated");
   path.made_by = file.text("made_by");
   path.trials = file.integer("trials", 1, kMost);
   path.left_out = file.integer("left_out", 0, kMost);
   path.experts = file.texts("experts");
-  path.entry_L = kMm * vectorIn(file, "entry_L_mm", kFar_mm);
   path.entry_sd = kMm * file.number("entry_sd_mm", 0, 10);
   path.depth = kMm * file.number("depth_mm", 0, 100);
   path.depth_sd = kMm * file.number("depth_sd_mm", 0, 10);
-  path.direction_L = unitVectorIn(file, "direction_L");
   path.direction_sd = kDegree * file.number("direction_sd_deg", 0, 10);
   path.direction_acceptable = kDegree * file.number("direction_acceptable_deg", 0.1, 45);
-  path.line_from_L = kMm * vectorIn(file, "line_from_L_mm", kFar_mm);
-  path.line_to_L = kMm * vectorIn(file, "line_to_L_mm", kFar_mm);
-  if ((path.line_to_L - path.line_from_L).norm() < 0.001)
-    file.refuse("line_to_L_mm", "makes a line of no length");
+  path.axes == PathAxes::own_line ? readOwnLine(file, &path) : readInLandmarks(file, &path);
   return path;
 }
 

@@ -118,9 +118,11 @@ int JsonFile::integer(const std::string& path, int low, int high) const {
   return static_cast<int>(x);
 }
 
-void JsonFile::needVersion(int newest) const {
-  if (integer("version", 1, 1'000'000) > newest)
+int JsonFile::needVersion(int newest) const {
+  const int version = integer("version", 1, 1'000'000);
+  if (version > newest)
     refuse("version", "is newer than this program knows (" + std::to_string(newest) + ")");
+  return version;
 }
 
 std::string JsonFile::text(const std::string& path) const {

@@ -41,7 +41,7 @@ class JsonFile {
   const nlohmann::json& json() const { return json_; }
   const std::string& name() const { return name_; }
   /// Field "version" is 1 to `newest`: files of later programs are refused.
-  void needVersion(int newest) const;
+  int needVersion(int newest) const;
   [[noreturn]] void refuse(const std::string& path, const std::string& what) const;
 
  private:

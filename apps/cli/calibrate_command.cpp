@@ -156,13 +156,15 @@ void calibrateExperts(ExpertOptions o) {
   for (const std::string& file : o.from) {
     const evidence::RecordedSession session(file);
     const anatomy::LandmarkFrame frame(session.patient());
+    const calibration::TeachingLine line =
+        assess::teachingLineOf(session.patient(), session.query());
     simulated = simulated || session.simulated();
     session.eachTrial(
         [&](const record::RecordedTrial& trial, const evidence::RecordedSession::Samples& samples) {
           ++seen;
           calibration::ExpertTrial expert;
           if (training::outcomeNamed(trial.end.outcome) == training::Outcome::success &&
-              assess::expertTrial(samples, frame, expertOf(session, file), &expert)) {
+              assess::expertTrial(samples, frame, line, expertOf(session, file), &expert)) {
             trials.push_back(std::move(expert));
           }
         });
@@ -177,10 +179,10 @@ void calibrateExperts(ExpertOptions o) {
   std::printf("%zu of %zu trials were complete; %d agree and make the path%s\n", trials.size(),
               seen, path.trials, simulated ? " (simulated experts)" : "");
   std::printf(
-      "Entry +- %.1f mm, depth of phase 1 %.1f +- %.1f mm, direction +- %.1f degrees (acceptable "
-      "%.1f)\n",
-      1e3 * path.entry_sd, 1e3 * path.depth, 1e3 * path.depth_sd, path.direction_sd / kDegree,
-      path.direction_acceptable / kDegree);
+      "Depth of phase 1: %.1f mm. Deviation that is acceptable (2 standard deviations): entry %.1f "
+      "mm, depth %.1f mm, direction %.1f degrees, line %.1f mm\n",
+      1e3 * path.depth, 1e3 * path.entry_acceptable, 1e3 * path.depth_acceptable,
+      path.direction_acceptable / kDegree, 1e3 * path.line_acceptable);
   std::printf("Written: %s\n", o.out.c_str());
 }
 

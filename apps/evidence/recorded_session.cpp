@@ -13,6 +13,7 @@
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
 #include "apps/assess/needle/needle_metrics.h"
+#include "apps/assess/needle/teaching_line.h"
 #include "apps/record/trial_walk.h"
 #include "apps/training/trial_words.h"
 #include "haptics/loop/tick.h"
@@ -45,8 +46,9 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
   task_ = task_needle::readTask(JsonFile::ofText(info.task_json, file.string() + ", its task"));
   if (!task_.block) anatomy::requireForNeedle(patient_, patient);
   if (!info.expert_path_json.empty())
-    expert_path_ = std::make_unique<calibration::ExpertPath>(
-        calibration::parseExpertPath(info.expert_path_json, file.string() + ", its expert path"));
+    taught_path_ =
+        calibration::parseExpertPath(info.expert_path_json, file.string() + ", its expert path")
+            .onBody(assess::teachingLineOf(patient_, *query_));
   trials_ = reader_->trials();
 }
 
@@ -81,13 +83,13 @@ assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& tr
     again.metrics = assess::goalMetrics(again, samples, task_.rules);
     return again;
   }
-  if (!expert_path_)
+  if (!taught_path_)
     throw Error("no expert path was recorded", "session",
                 "It was made to calibrate experts, not to be scored");
   const assess::TrialFacts facts{trial.header.trial, training::roleNamed(trial.header.role),
                                  simulated_,         trial.header.force_feedback,
                                  trial.header.seed,  training::outcomeNamed(trial.end.outcome)};
-  return assess::assessTrial(facts, samples, patient_, *query_, *expert_path_, task_.rules);
+  return assess::assessTrial(facts, samples, patient_, *query_, *taught_path_, task_.rules);
 }
 
 namespace {

@@ -29,6 +29,7 @@ class RecordedSession {
   const Pose& X_DA() const { return X_DA_; }
   bool simulated() const { return simulated_; }
   const std::string& operatorName() const { return operator_; }
+  const anatomy::SurfaceQuery& query() const { return *query_; }
   const std::string& trainee() const { return trainee_; }  ///< pseudonym of who performed
   const std::vector<record::RecordedTrial>& trials() const { return trials_; }
   using Samples = std::vector<assess::TrialSample>;
@@ -44,7 +45,7 @@ class RecordedSession {
   std::unique_ptr<record::SessionReader> reader_;
   anatomy::Patient patient_;
   std::unique_ptr<anatomy::SurfaceQuery> query_;
-  std::unique_ptr<calibration::ExpertPath> expert_path_;
+  std::optional<calibration::TaughtPath> taught_path_;
   task_needle::TaskSettings task_;
   Pose X_DA_ = Pose::Identity();
   bool simulated_ = false;

@@ -77,7 +77,7 @@ class NeedleSession {
     return {.patient = world_.patient,
             .query = world_.query,
             .settings = world_.task,
-            .expert_path = world_.expert_path ? &*world_.expert_path : nullptr,
+            .taught_path = world_.taught_path ? &*world_.taught_path : nullptr,
             .X_AD = world_.X_DA.inverse(),
             .X_ET = pack(world_.station.X_ET),
             .simulated = isSimulated(options_, world_),

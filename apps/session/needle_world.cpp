@@ -13,6 +13,7 @@
 #include "anatomy/parametric/phantoms.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
+#include "apps/assess/needle/teaching_line.h"
 #include "apps/session/kept_patient.h"
 #include "apps/session/output_folder.h"
 #include "apps/station/assets.h"
@@ -108,8 +109,10 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
       geometry(patient, query),
       landmarks(task.block ? std::nullopt : std::make_optional<anatomy::LandmarkFrame>(patient)) {
   for (const station::RealThing& thing : station.things) real_things.push_back(meshOf(thing));
-  if (!options.record_only && !task.expert_path.empty())
+  if (!options.record_only && !task.expert_path.empty()) {
     expert_path = calibration::readExpertPath(task.expert_path);
+    taught_path = expert_path->onBody(assess::teachingLineOf(patient, query));
+  }
   X_WA = options.camera.empty() ? station::placePatient(patient, station.entry_W)
                                 : station::placePatientOnBoard(patient);
   if (!options.camera.empty())  // the bench's device stands where it stood, relative to the patient

@@ -34,7 +34,8 @@ struct NeedleWorld {
   anatomy::LocalGeometryBuilder geometry;
   std::optional<anatomy::LandmarkFrame> landmarks;  ///< none: it is no patient
   std::optional<calibration::ExpertPath> expert_path;
-  std::vector<anatomy::TriangleMesh> real_things;  ///< the station's, in its order; metres
+  std::optional<calibration::TaughtPath> taught_path;  ///< the same on this patient
+  std::vector<anatomy::TriangleMesh> real_things;      ///< the station's, in its order; metres
   Pose X_WA, X_DA;
 
   haptics::TickConfig tickConfig() const;

@@ -74,9 +74,9 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
   trial.reason = reason;
   assess::TrialFacts facts{status().trial,        plan().role, setup_.simulated,
                            plan().force_feedback, plan().seed, outcome};
-  if (setup_.expert_path) {
+  if (setup_.taught_path) {
     trial.assessment = assess::assessTrial(facts, samples_, setup_.patient, setup_.query,
-                                           *setup_.expert_path, setup_.settings.rules);
+                                           *setup_.taught_path, setup_.settings.rules);
   } else {
     trial.assessment.trial = status().trial;
     trial.assessment.role = plan().role;

@@ -51,8 +51,8 @@ struct NeedleTaskSetup {
   const anatomy::Patient& patient;
   const anatomy::SurfaceQuery& query;
   const TaskSettings& settings;
-  const calibration::ExpertPath*
-      expert_path;  ///< null: not scored against a path (experts record one)
+  /// of this patient; null: not scored against a path (experts record one)
+  const calibration::TaughtPath* taught_path;
   Pose X_AD = Pose::Identity();
   PackedPose X_ET;
   bool simulated = false;

@@ -31,9 +31,8 @@ inline Vec3 direction_L(double elevation, double azimuth) {
 
 /// Entry 10 mm below the junction, phase 1 straight back for 8 mm, then medially 25 degrees steep
 /// and 15 degrees cephalad for 30 mm.
-inline calibration::ExpertPath taughtPath() {
-  calibration::ExpertPath path;
-  path.trials = 150;
+inline calibration::TaughtPath taughtPath() {
+  calibration::TaughtPath path;
   path.entry_L = {0, -0.02, -0.01};
   path.depth = 0.008;
   path.direction_L = direction_L(25 * kDeg, 15 * kDeg);
@@ -42,6 +41,11 @@ inline calibration::ExpertPath taughtPath() {
   path.line_from_L = path.entry_L + Vec3(0, 0.008, 0);
   path.line_to_L = path.line_from_L + 0.030 * path.direction_L;
   return path;
+}
+
+/// Of the body on which that path is taught.
+inline calibration::TeachingLine teachingLine() {
+  return {taughtPath().entry_L, Vec3::UnitY(), taughtPath().line_to_L};
 }
 
 /// Writes a trial tick by tick: hold, push along the needle, turn about the tip, with what is

@@ -6,6 +6,7 @@
 
 #include "anatomy/parametric/parametric_patient.h"
 #include "apps/assess/competence/verdict.h"
+#include "apps/assess/needle/teaching_line.h"
 #include "tests/support/files.h"
 #include "tests/support/scripted_trial.h"
 
@@ -24,9 +25,16 @@ inline const anatomy::Patient& referencePatient(anatomy::Side side) {
   return side == anatomy::Side::right ? right : left;
 }
 
-inline calibration::ExpertPath shippedPath() {
-  return calibration::readExpertPath(PALPA_SOURCE_DIR
-                                     "/assets/tasks/paracentesis_expert_path.json");
+/// The shipped path on the reference patient.
+inline const calibration::TaughtPath& shippedPath(anatomy::Side side = anatomy::Side::right) {
+  const auto on = [](const anatomy::Patient& patient) {
+    return calibration::readExpertPath(PALPA_SOURCE_DIR
+                                       "/assets/tasks/paracentesis_expert_path.json")
+        .onBody(assess::teachingLineOf(patient, anatomy::SurfaceQuery(patient)));
+  };
+  static const calibration::TaughtPath right = on(referencePatient(anatomy::Side::right)),
+                                       left = on(referencePatient(anatomy::Side::left));
+  return side == anatomy::Side::right ? right : left;
 }
 inline Checklist shippedChecklist() {
   return parseChecklist(palpa::test::slurp(PALPA_SOURCE_DIR "/assets/checklists/subclavian.json"),
@@ -41,10 +49,10 @@ inline GlobalRating shippedGlobal() {
 /// A scripted trial, judged as a session judges it; `seed` even: on the right side.
 inline assess::TrialAssessment judged(const palpa::test::Script& script, std::uint64_t seed,
                                       RandomStream& draw) {
-  const anatomy::Patient& patient =
-      referencePatient(seed % 2 ? anatomy::Side::left : anatomy::Side::right);
+  const anatomy::Side side = seed % 2 ? anatomy::Side::left : anatomy::Side::right;
+  const anatomy::Patient& patient = referencePatient(side);
   const anatomy::LandmarkFrame frame(patient);
-  const calibration::ExpertPath path = shippedPath();
+  const calibration::TaughtPath& path = shippedPath(side);
   const std::vector<assess::TrialSample> samples =
       palpa::test::ScriptedHand(script, frame, path, draw).trial();
   return assess::assessTrial(

@@ -33,8 +33,15 @@ struct Truth {
   double entry_sd = 0.002, depth_sd = 0.001, direction_sd = 2 * kDeg;
 };
 
+/// Of the body on which those trials are performed: its vein lies where the mean trial ends.
+inline TeachingLine lineOf(const Truth& truth) {
+  return {truth.entry, Vec3::UnitY(),
+          truth.entry + Vec3(0, truth.depth, 0) + truth.length * truth.direction};
+}
+
 inline ExpertTrial drawTrial(const Truth& truth, const std::string& expert, Normal* normal) {
   ExpertTrial trial;
+  trial.line = lineOf(truth);
   trial.expert = expert;
   trial.entry_L =
       truth.entry + Vec3((*normal)(truth.entry_sd), 0, (*normal)(truth.entry_sd));  // in the skin
@@ -44,9 +51,8 @@ inline ExpertTrial drawTrial(const Truth& truth, const std::string& expert, Norm
   trial.direction_L = (truth.direction + (*normal)(truth.direction_sd) * across +
                        (*normal)(truth.direction_sd) * other)
                           .normalized();
-  const Vec3 start = trial.entry_L + Vec3(0, trial.depth, 0);
-  for (int i = 0; i <= 10; ++i)
-    trial.tip_L.push_back(start + 0.1 * i * truth.length * trial.direction_L);
+  trial.start_L = trial.entry_L + Vec3(0, trial.depth, 0);
+  trial.end_L = trial.start_L + truth.length * trial.direction_L;
   return trial;
 }
 

@@ -31,7 +31,7 @@ struct Script {
 
 /// What of a good trial differs from one to the next: figures of the shipped path, "palpa calibrate
 /// experts".
-inline Script scattered(RandomStream& draw, const calibration::ExpertPath& path,
+inline Script scattered(RandomStream& draw, const calibration::TaughtPath& path,
                         Script script = {}) {
   script.along += path.entry_sd * draw.openNormal();
   script.across += path.entry_sd * draw.openNormal();
@@ -65,7 +65,7 @@ inline Vec3 turned_L(const Vec3& taught_L, double steeper, double cephalad) {
 class ScriptedHand {
  public:
   ScriptedHand(const Script& script, const anatomy::LandmarkFrame& frame,
-               const calibration::ExpertPath& path, RandomStream& draw)
+               const calibration::TaughtPath& path, RandomStream& draw)
       : script_(script), frame_(frame), path_(path), draw_(draw) {
     const Vec3 entry_L = path.entry_L + Vec3(script.along, 0, script.across);
     motion_.now().axis_A = frame.vectorToA(Vec3(0, 0.97, 0.24).normalized());
@@ -130,7 +130,7 @@ class ScriptedHand {
 
   Script script_;
   const anatomy::LandmarkFrame& frame_;
-  const calibration::ExpertPath& path_;
+  const calibration::TaughtPath& path_;
   RandomStream& draw_;
   assess::test::Motion motion_{200};
 };

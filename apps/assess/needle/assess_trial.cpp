@@ -35,7 +35,7 @@ int countPunctures(const TrialReview& r) {
 
 TrialAssessment assessTrial(const TrialFacts& facts, const std::vector<TrialSample>& samples,
                             const anatomy::Patient& patient, const OrganDistance& distance,
-                            const calibration::ExpertPath& path, const ScoringRules& rules) {
+                            const calibration::TaughtPath& path, const ScoringRules& rules) {
   const anatomy::LandmarkFrame frame(patient);
   const TrialReview r = review(facts, samples, frame, distance, path, rules);
   TrialAssessment a = headed(facts);
@@ -64,7 +64,7 @@ double total(const ParacentesisValues& v, const ScoreWeights& w) {
 
 TrialAssessment assessTrial(const TrialFacts& facts, const std::vector<TrialSample>& samples,
                             const anatomy::Patient& patient, const anatomy::SurfaceQuery& query,
-                            const calibration::ExpertPath& path, const ScoringRules& rules) {
+                            const calibration::TaughtPath& path, const ScoringRules& rules) {
   const OrganDistance distance = [&](Organ organ, const Vec3& p_A) {
     double closest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < patient.organs.size(); ++i)
@@ -76,7 +76,8 @@ TrialAssessment assessTrial(const TrialFacts& facts, const std::vector<TrialSamp
 }
 
 bool expertTrial(const std::vector<TrialSample>& samples, const anatomy::LandmarkFrame& frame,
-                 const std::string& expert, calibration::ExpertTrial* trial) {
+                 const calibration::TeachingLine& line, const std::string& expert,
+                 calibration::ExpertTrial* trial) {
   const PhaseHistory history = detectPhases(samples);
   if (history.passes.empty()) return false;
   const Pass& pass = history.passes.back();
@@ -87,14 +88,12 @@ bool expertTrial(const std::vector<TrialSample>& samples, const anatomy::Landmar
   if (!pass.reoriented || !pass.advanced || !inVein(samples[end]) || end == pass.phase_2)
     return false;
   trial->expert = expert;
+  trial->line = line;
   trial->entry_L = frame.pointToLandmarks(pass.puncture.tip_A);
   trial->depth = pass.end_of_phase_1.depth;
   trial->direction_L = frame.vectorToLandmarks(pass.start_of_phase_2.axis_A).normalized();
-  trial->tip_L = {frame.pointToLandmarks(samples[pass.phase_2].tip_A)};
-  const Samples phase_2 = Samples(samples).subspan(pass.phase_2, end - pass.phase_2 + 1);
-  for (const std::size_t i : scoringSamples(phase_2, 20))
-    if (i > 0) trial->tip_L.push_back(frame.pointToLandmarks(phase_2[i].tip_A));
-  trial->tip_L.push_back(frame.pointToLandmarks(samples[end].tip_A));
+  trial->start_L = frame.pointToLandmarks(samples[pass.phase_2].tip_A);
+  trial->end_L = frame.pointToLandmarks(samples[end].tip_A);
   return true;
 }
 

@@ -50,7 +50,7 @@ struct TrialFacts {
 /// trial in A (1 kHz or any rate), nothing of the simulation's truth.
 TrialAssessment assessTrial(const TrialFacts& facts, const std::vector<TrialSample>& samples,
                             const anatomy::Patient& patient, const anatomy::SurfaceQuery& query,
-                            const calibration::ExpertPath& path, const ScoringRules& rules);
+                            const calibration::TaughtPath& path, const ScoringRules& rules);
 
 /// Signed distance of a point from an organ of the patient (negative inside), metres; infinite when
 /// he has none.
@@ -59,11 +59,13 @@ using OrganDistance = std::function<double(Organ organ, const Vec3& p_A)>;
 /// The same with the distances given by a function; the one above asks the meshes.
 TrialAssessment assessTrial(const TrialFacts& facts, const std::vector<TrialSample>& samples,
                             const anatomy::Patient& patient, const OrganDistance& distance,
-                            const calibration::ExpertPath& path, const ScoringRules& rules);
+                            const calibration::TaughtPath& path, const ScoringRules& rules);
 
-/// What an expert's trial says about the path; false when it has no complete phase 2: the needle
-/// was turned, advanced, and its tip was in the lumen of the vein at the end.
+/// What an expert's trial on a body with this line says about the path; false when it has no
+/// complete phase 2: the needle was turned, advanced, and its tip was in the lumen of the vein at
+/// the end.
 bool expertTrial(const std::vector<TrialSample>& samples, const anatomy::LandmarkFrame& frame,
-                 const std::string& expert, calibration::ExpertTrial* trial);
+                 const calibration::TeachingLine& line, const std::string& expert,
+                 calibration::ExpertTrial* trial);
 
 }  // namespace palpa::assess

@@ -8,7 +8,7 @@ namespace {
 constexpr double kSayAngle = 0.5 * M_PI / 180;  // smaller parts of a deviation are not named
 constexpr double kNotTurned = 45 * M_PI / 180;  // beyond this "too steep" is no longer the point
 
-std::string depthWords(const TrialReview& r, const calibration::ExpertPath& path) {
+std::string depthWords(const TrialReview& r, const calibration::TaughtPath& path) {
   const double depth = path.depth + r.entry.depth_error;
   const double off = r.entry.depth_error;
   const std::string done = r.pass->reoriented ? "; turned at a depth of " + millimetres(depth)
@@ -17,7 +17,7 @@ std::string depthWords(const TrialReview& r, const calibration::ExpertPath& path
   return done + ", " + millimetres(std::abs(off)) + (off > 0 ? " too deep" : " too shallow");
 }
 
-Penalty entry(const TrialReview& r, const calibration::ExpertPath& path,
+Penalty entry(const TrialReview& r, const calibration::TaughtPath& path,
               const ScoringRules& rules) {
   Penalty p{"PHASE_1",
             "Entry point and depth",
@@ -48,7 +48,7 @@ std::string deviationWords(const DirectionError& d) {
   return parts.empty() ? "kept the taught direction" : "was " + list(parts);
 }
 
-Penalty direction(const TrialReview& r, const calibration::ExpertPath& path,
+Penalty direction(const TrialReview& r, const calibration::TaughtPath& path,
                   const ScoringRules& rules) {
   const double weight = rules.weights.phase2Weight(r.values.phase_2);
   Penalty p{"PHASE_2", "Direction of the needle", "", r.values.phase_2,
@@ -127,13 +127,13 @@ Penalty time(const TrialReview& r, const ScoringRules& rules) {
 
 }  // namespace
 
-std::vector<Penalty> explainPath(const TrialReview& r, const calibration::ExpertPath& path,
+std::vector<Penalty> explainPath(const TrialReview& r, const calibration::TaughtPath& path,
                                  const ScoringRules& rules) {
   return {entry(r, path, rules), direction(r, path, rules), economyMean(r, rules),
           economyVariance(r, rules), time(r, rules)};
 }
 
-std::vector<Penalty> explain(const TrialReview& r, const calibration::ExpertPath& path,
+std::vector<Penalty> explain(const TrialReview& r, const calibration::TaughtPath& path,
                              const ScoringRules& rules) {
   std::vector<Penalty> lines = explainCollisions(r, rules);
   for (Penalty& p : explainPath(r, path, rules)) lines.push_back(std::move(p));

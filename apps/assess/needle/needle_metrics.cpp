@@ -79,7 +79,7 @@ double countOf(const std::vector<Interval>& stretches) {
 std::vector<metrics::MetricValue> techniqueMetrics(const TrialReview& r,
                                                    const std::vector<TechnicalError>& errors,
                                                    const anatomy::LandmarkFrame& frame,
-                                                   const calibration::ExpertPath& path,
+                                                   const calibration::TaughtPath& path,
                                                    const ScoringRules& rules) {
   const bool advanced = r.pass && r.pass->advanced;
   const Aim aim = advanced ? aimOf(r.pass->start_of_phase_2.axis_A, frame, path) : Aim{};
@@ -219,7 +219,7 @@ std::vector<MetricValue> goalMetrics(const TrialAssessment& a, Samples samples,
 
 std::vector<MetricValue> needleMetrics(const TrialReview& r, const TrialAssessment& a,
                                        const anatomy::LandmarkFrame& frame,
-                                       const calibration::ExpertPath& path,
+                                       const calibration::TaughtPath& path,
                                        const ScoringRules& rules) {
   const ParacentesisValues& v = r.values;
   const int passes = a.skin_punctures + a.redirections;

@@ -14,7 +14,7 @@ namespace palpa::assess {
 std::vector<metrics::MetricValue> techniqueMetrics(const TrialReview& review,
                                                    const std::vector<TechnicalError>& errors,
                                                    const anatomy::LandmarkFrame& frame,
-                                                   const calibration::ExpertPath& path,
+                                                   const calibration::TaughtPath& path,
                                                    const ScoringRules& rules);
 
 /// Figures of a needle's motion and force that need no expert path; samples up to the end that is
@@ -26,7 +26,7 @@ std::vector<metrics::MetricValue> motionMetrics(Samples samples, const ScoringRu
 std::vector<metrics::MetricValue> needleMetrics(const TrialReview& review,
                                                 const TrialAssessment& assessment,
                                                 const anatomy::LandmarkFrame& frame,
-                                                const calibration::ExpertPath& path,
+                                                const calibration::TaughtPath& path,
                                                 const ScoringRules& rules);
 
 /// The figures of a trial without an expert path: success, time and motion; from its outcome and

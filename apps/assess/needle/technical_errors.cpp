@@ -41,7 +41,7 @@ struct Astray {
 /// Visits the steps by which the needle was advanced toward the vein, `look(aim, metres, t_s)`.
 template <class Look>
 void eachAdvance(const TrialReview& r, const Pass& pass, const anatomy::LandmarkFrame& frame,
-                 const calibration::ExpertPath& path, Look look) {
+                 const calibration::TaughtPath& path, Look look) {
   if (!pass.advanced || pass.phase_2 >= r.samples.size()) return;
   const Samples phase_2 = r.samples.subspan(pass.phase_2, pass.last - pass.phase_2 + 1);
   const std::vector<std::size_t> looks = scoringSamples(phase_2, kAimRate_Hz);
@@ -57,7 +57,7 @@ void eachAdvance(const TrialReview& r, const Pass& pass, const anatomy::Landmark
 /// The worst pass advanced beyond `limit`, as `part` of its aim says.
 template <class Part>
 std::pair<Worst, double> astray(const TrialReview& r, const anatomy::LandmarkFrame& frame,
-                                const calibration::ExpertPath& path, double limit,
+                                const calibration::TaughtPath& path, double limit,
                                 double least_travel, Part part) {
   Worst worst;
   double travel = 0;
@@ -96,7 +96,7 @@ void site(const TrialReview& r, const std::vector<Vec3>& offsets_L, const ErrorR
 }
 
 void landmarks(const TrialReview& r, const std::vector<Vec3>& offsets_L,
-               const anatomy::LandmarkFrame& frame, const calibration::ExpertPath& path,
+               const anatomy::LandmarkFrame& frame, const calibration::TaughtPath& path,
                const ErrorRules& rules, Errors* errors) {
   const char* const title = "Landmarks not identified";
   Worst along;
@@ -150,7 +150,7 @@ void periosteum(const TrialReview& r, const ErrorRules& rules, Errors* errors) {
 }
 
 void aims(const TrialReview& r, const anatomy::LandmarkFrame& frame,
-          const calibration::ExpertPath& path, const ErrorRules& rules, Errors* errors) {
+          const calibration::TaughtPath& path, const ErrorRules& rules, Errors* errors) {
   const auto [flat, flat_way] = astray(r, frame, path, rules.too_shallow, rules.aim_travel,
                                        [](const Aim& a) { return -a.steeper; });
   if (flat.times)
@@ -209,7 +209,7 @@ void leftVein(const TrialReview& r, const ScoringRules& rules, Errors* errors) {
 }  // namespace
 
 Aim aimOf(const Vec3& axis_A, const anatomy::LandmarkFrame& frame,
-          const calibration::ExpertPath& path) {
+          const calibration::TaughtPath& path) {
   const DirectionError error = comparedWith(frame.vectorToLandmarks(axis_A), path);
   const double elevation = std::asin(std::clamp(frame.vectorToLandmarks(axis_A).y(), -1.0, 1.0));
   return {error.steeper, std::abs(elevation) > kSteepest ? 0 : error.more_cephalad};
@@ -217,7 +217,7 @@ Aim aimOf(const Vec3& axis_A, const anatomy::LandmarkFrame& frame,
 
 std::vector<TechnicalError> technicalErrors(const TrialReview& r,
                                             const anatomy::LandmarkFrame& frame,
-                                            const calibration::ExpertPath& path,
+                                            const calibration::TaughtPath& path,
                                             const ScoringRules& rules) {
   std::vector<Vec3> offsets_L;
   for (const Pass& pass : r.history.passes)

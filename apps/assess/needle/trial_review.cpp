@@ -21,7 +21,7 @@ double distanceFromLine(const Vec3& p_L, const Vec3& from_L, const Vec3& along_L
 
 }  // namespace
 
-DirectionError comparedWith(const Vec3& axis_L, const calibration::ExpertPath& path) {
+DirectionError comparedWith(const Vec3& axis_L, const calibration::TaughtPath& path) {
   const Vec3& taught = path.direction_L;
   DirectionError error;
   error.angle = angleBetween(axis_L, taught);
@@ -33,7 +33,7 @@ DirectionError comparedWith(const Vec3& axis_L, const calibration::ExpertPath& p
 }
 
 EntryError entryError(const Pass* pass, Samples samples, const anatomy::LandmarkFrame& frame,
-                      const calibration::ExpertPath& path) {
+                      const calibration::TaughtPath& path) {
   EntryError error;
   if (pass) {
     error.punctured = true;
@@ -55,7 +55,7 @@ EntryError entryError(const Pass* pass, Samples samples, const anatomy::Landmark
 
 DirectionError directionError(const Pass* pass, Samples samples,
                               const anatomy::LandmarkFrame& frame,
-                              const calibration::ExpertPath& path) {
+                              const calibration::TaughtPath& path) {
   DirectionError error;
   error.value = kWorstDirection;
   if (!pass) return error;
@@ -68,7 +68,7 @@ DirectionError directionError(const Pass* pass, Samples samples,
 }
 
 Economy economy(const Pass* pass, Samples samples, const anatomy::LandmarkFrame& frame,
-                const calibration::ExpertPath& path, double shaft_point) {
+                const calibration::TaughtPath& path, double shaft_point) {
   Economy result;
   if (!pass || !pass->advanced) return result;
   const Vec3 along_L = (path.line_to_L - path.line_from_L).normalized();
@@ -108,7 +108,7 @@ void checkSamples(const TrialFacts& facts, Samples samples) {
   }
 }
 
-void checkScale(const calibration::ExpertPath& path, const ScoringRules& rules) {
+void checkScale(const calibration::TaughtPath& path, const ScoringRules& rules) {
   if (!(path.direction_acceptable > 0) || !((path.line_to_L - path.line_from_L).norm() > 1e-6) ||
       !(std::abs(path.direction_L.norm() - 1) < 1e-3))
     throw Error("the path has no direction, line or acceptable deviation", "expert path",
@@ -153,7 +153,7 @@ ParacentesisValues valuesOf(const TrialReview& r, const ScoringRules& rules) {
 }  // namespace
 
 TrialReview review(const TrialFacts& facts, Samples all, const anatomy::LandmarkFrame& frame,
-                   const OrganDistance& distance, const calibration::ExpertPath& path,
+                   const OrganDistance& distance, const calibration::TaughtPath& path,
                    const ScoringRules& rules) {
   checkSamples(facts, all);
   checkScale(path, rules);

@@ -19,7 +19,7 @@ struct EntryError {
 /// before phase 2. Never punctured: distance of the last tip from the optimal entry, at most 50 mm,
 /// plus the whole optimal depth.
 EntryError entryError(const Pass* pass, Samples samples, const anatomy::LandmarkFrame& frame,
-                      const calibration::ExpertPath& path);
+                      const calibration::TaughtPath& path);
 
 /// PHASE_2: direction at the start of phase 2 against the experts' mean.
 struct DirectionError {
@@ -32,13 +32,13 @@ struct DirectionError {
 };
 
 /// A direction against the taught one; `judged` and the cap of `value` are the caller's.
-DirectionError comparedWith(const Vec3& axis_L, const calibration::ExpertPath& path);
+DirectionError comparedWith(const Vec3& axis_L, const calibration::TaughtPath& path);
 
 /// Phase 2 not reached: the last direction while inserted, value at most 5000; never inserted:
 /// 5000.
 DirectionError directionError(const Pass* pass, Samples samples,
                               const anatomy::LandmarkFrame& frame,
-                              const calibration::ExpertPath& path);
+                              const calibration::TaughtPath& path);
 
 /// ECON: in phase 2, mean and variance over its samples of
 ///   e = (d(tip) + d(shaft point)) / 2,
@@ -49,7 +49,7 @@ struct Economy {
   double largest_mm = 0, largest_s = 0;
 };
 Economy economy(const Pass* pass, Samples samples, const anatomy::LandmarkFrame& frame,
-                const calibration::ExpertPath& path, double shaft_point);
+                const calibration::TaughtPath& path, double shaft_point);
 
 /// Everything measured in a trial, once; the sentences, the timeline and the summary read it.
 struct TrialReview {
@@ -75,7 +75,7 @@ struct TrialReview {
 /// `all`, `path` and `rules` must outlive the review. Throws Error on samples or a path that cannot
 /// be scored (not finite, time running backward, no acceptable deviation).
 TrialReview review(const TrialFacts& facts, Samples all, const anatomy::LandmarkFrame& frame,
-                   const OrganDistance& distance, const calibration::ExpertPath& path,
+                   const OrganDistance& distance, const calibration::TaughtPath& path,
                    const ScoringRules& rules);
 
 /// Largest force on bone in some stretches, N.

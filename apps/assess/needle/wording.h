@@ -26,12 +26,12 @@ std::string list(const std::vector<std::string>& parts);
 
 /// The nine lines of the score, in the order of Tzafestas et al. 2008, each with its reason in
 /// clinical words. A line without penalty says briefly what was right.
-std::vector<Penalty> explain(const TrialReview& review, const calibration::ExpertPath& path,
+std::vector<Penalty> explain(const TrialReview& review, const calibration::TaughtPath& path,
                              const ScoringRules& rules);
 
 /// The same in parts: COL_*, and the rest.
 std::vector<Penalty> explainCollisions(const TrialReview& review, const ScoringRules& rules);
-std::vector<Penalty> explainPath(const TrialReview& review, const calibration::ExpertPath& path,
+std::vector<Penalty> explainPath(const TrialReview& review, const calibration::TaughtPath& path,
                                  const ScoringRules& rules);
 
 /// Verdict first, then the largest penalty.
