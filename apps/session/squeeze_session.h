@@ -17,9 +17,8 @@ struct SqueezeWorld {
   station::Station station;
   task_squeeze::SqueezeSettings task;
   anatomy::Patient object;  ///< as it is shown
-  Pose X_WO = Pose::Identity(),
-       /// its middle at rest, x from the second tool to the first; as shown
-      X_WA = Pose::Identity();
+  /// its middle at rest, x from the second tool to the first; as shown
+  Pose X_WO = Pose::Identity(), X_WA = Pose::Identity();
 
   haptics::PairConfig pairConfig(const SessionOptions& options) const;
   SessionDevices::Hands hands(const SessionOptions& options) const;

@@ -55,9 +55,8 @@ class EyeCopier {
   void readDecoded(const Rect& part);
 
   vtkRenderWindow& window_;
-  std::uint32_t frame_ = 0, between_ = 0,
-                /// OpenGL's: framebuffers about the target and about `encoded_`, a texture
-      encoded_ = 0;
+  /// OpenGL's: framebuffers about the target and about `encoded_`, a texture
+  std::uint32_t frame_ = 0, between_ = 0, encoded_ = 0;
   int encoded_width_ = 0, encoded_height_ = 0;
 };
 

@@ -37,9 +37,8 @@ struct SearchTrial {
   bool found() const { return chosen == target; }
   double seconds = 0;  ///< pauses left out
   double path_m = 0;   ///< of the probe, in the hand
-  double mean_force_N = 0,
-         /// of the floor and its cues in contact; what holds the handle up is not counted
-      peak_force_N = 0;
+  /// of the floor and its cues in contact; what holds the handle up is not counted
+  double mean_force_N = 0, peak_force_N = 0;
   std::array<double, 3> visited_s{};  ///< seconds on each element
   std::vector<SubtaskDose> doses;
 };
