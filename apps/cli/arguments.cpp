@@ -48,6 +48,22 @@ CLI::Option* choice(CLI::App& command, const std::string& name, T& value,
       ->type_name(names);
 }
 
+/// A name, or a file as in assets/operators.
+void addOperator(CLI::App& command, session::SessionOptions& o) {
+  command
+      .add_option_function<std::string>(
+          "--operator",
+          [&o](const std::string& text) {
+            const auto named = kOperators.find(text);
+            o.who = named == kOperators.end() ? session::OperatorKind::custom : named->second;
+            o.operator_file = named == kOperators.end() ? text : "";
+          },
+          "Who performs: you, a simulated expert or novice, or a simulated operator of your own: "
+          "a file like those in assets/operators")
+      ->check(CLI::IsMember(kOperators) | CLI::ExistingFile)
+      ->type_name("auto|expert|novice|person|FILE");
+}
+
 void addRecordedPictures(CLI::App& command, session::SessionOptions& o) {
   command
       .add_option("--camera", o.camera,
@@ -69,8 +85,7 @@ void addRecordedPictures(CLI::App& command, session::SessionOptions& o) {
 void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
   command.add_option("--station", o.station, "Station file; default: the virtual bench")
       ->type_name("FILE");
-  choice(command, "--operator", o.who, kOperators,
-         "Who performs: you, or a simulated expert or novice");
+  addOperator(command, o);
   command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can; repeats exactly");
   command.add_flag("--record-video", o.record_video,
                    "Keep the camera's pictures and their poses: camera.mjpeg and a table");

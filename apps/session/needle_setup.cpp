@@ -13,11 +13,6 @@
 namespace palpa::session {
 namespace {
 
-twin::OperatorSkill skillOf(OperatorKind who) {
-  return twin::readOperatorSkill(station::assetFile(
-      who == OperatorKind::novice ? "operators/novice.json" : "operators/expert.json"));
-}
-
 /// A learner at a trial. The clavicle guides whoever feels it: nobody learns to lean on it where it
 /// is not felt.
 twin::OperatorSkill learnt(const SessionOptions& options, const twin::OperatorSkill& from,
@@ -45,7 +40,7 @@ std::unique_ptr<twin::Hand> operatorOf(const SessionOptions& options,
 }  // namespace
 
 SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWorld& world) {
-  const twin::OperatorSkill skill = skillOf(options.who);
+  const twin::OperatorSkill skill = twin::readOperatorSkill(operatorFile(options, ""));
   const twin::VisibleAnatomy anatomy = world.visible(skill, options.knows_patient);
   twin::VirtualBenchSetup bench{
       .station = world.station,
@@ -55,10 +50,11 @@ SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWor
       .watched_W = world.X_WA * anatomy.entry_A,
       .normal_W = world.X_WA.rotation() * anatomy.normal_A,
       .seed = options.benchSeed()};
-  const MouseHandSetup mouse{.X_DA = world.X_DA,
-                             .X_ET = world.station.X_ET,
-                             .anatomy = world.visible(skillOf(OperatorKind::expert), false),
-                             .left_handed = options.left_handed};
+  const MouseHandSetup mouse{
+      .X_DA = world.X_DA,
+      .X_ET = world.station.X_ET,
+      .anatomy = world.visible(twin::readOperatorSkill(operatorFile({}, "")), false),
+      .left_handed = options.left_handed};
   return {std::move(bench), mouse};
 }
 

@@ -96,9 +96,7 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
 }
 
 SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const {
-  const twin::PalpatingSkill skill = twin::readPalpatingSkill(
-      station::assetFile(options.who == OperatorKind::novice ? "operators/palpation_novice.json"
-                                                             : "operators/palpation_expert.json"));
+  const twin::PalpatingSkill skill = twin::readPalpatingSkill(operatorFile(options, "palpation_"));
   const twin::VisiblePhantom seen = visible(task);
   const Pose& X_WP = station.sample->X_WP;
   auto person =

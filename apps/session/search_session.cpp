@@ -61,11 +61,8 @@ Vec3 plateSize(const task_search::SearchSettings& task) {
 std::unique_ptr<twin::Hand> searchingHandOf(const SessionOptions& options,
                                             const twin::VisibleFloor& seen, const Pose& X_ET) {
   if (options.who != OperatorKind::learner)
-    return twin::searchingHand(
-        twin::readSearchingSkill(station::assetFile(options.who == OperatorKind::novice
-                                                        ? "operators/search_novice.json"
-                                                        : "operators/search_expert.json")),
-        seen, X_ET, options.seed);
+    return twin::searchingHand(twin::readSearchingSkill(operatorFile(options, "search_")), seen,
+                               X_ET, options.seed);
   return std::make_unique<twin::LearningHand>(
       [learner = options.learner, from = twin::readSearchingSkill(options.learner.from),
        to = twin::readSearchingSkill(options.learner.to), seen, X_ET](int trial) {

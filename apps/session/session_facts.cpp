@@ -42,8 +42,10 @@ std::string whoPerformed(const SessionOptions& options) {
   if (options.who == OperatorKind::person) return options.trainee;
   if (options.who == OperatorKind::recorded) return "recorded hand";
   if (options.who == OperatorKind::learner) return options.trainee + ", a simulated learner";
-  const std::string who =
-      options.who == OperatorKind::novice ? "simulated novice" : "simulated expert";
+  const std::string who = options.who == OperatorKind::custom
+                              ? "simulated operator of " +
+                                    std::filesystem::path(options.operator_file).filename().string()
+                              : std::string("simulated ") + nameOf(options.who);
   return options.knows_patient ? who + " who has studied this patient" : who;
 }
 

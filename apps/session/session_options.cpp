@@ -50,11 +50,19 @@ const char* nameOf(OperatorKind who) {
       return "recorded";
     case OperatorKind::novice:
       return "novice";
+    case OperatorKind::custom:
+      return "custom";
     case OperatorKind::learner:
       return "learner";
     default:
       return "expert";
   }
+}
+
+std::filesystem::path operatorFile(const SessionOptions& options, const std::string& engine) {
+  if (options.who == OperatorKind::custom) return options.operator_file;
+  const char* skilled = options.who == OperatorKind::novice ? "novice" : "expert";
+  return station::assetFile("operators/" + engine + skilled + ".json");
 }
 
 std::string sessionText(nlohmann::json session, const SessionOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -21,12 +22,14 @@ enum class OperatorKind {
   person,
   expert,
   novice,
-  learner,
-  recorded
-};  // learner: simulated, better from trial to trial; recorded: a replayed hand
+  custom,   ///< simulated, of a file of one's own
+  learner,  ///< simulated, better from trial to trial
+  recorded  ///< a replayed hand
+};
 
 inline bool isSimulated(OperatorKind who) {
-  return who == OperatorKind::expert || who == OperatorKind::novice || who == OperatorKind::learner;
+  return who == OperatorKind::expert || who == OperatorKind::novice ||
+         who == OperatorKind::custom || who == OperatorKind::learner;
 }
 
 /// Of which study a session is part.
@@ -59,6 +62,7 @@ struct SessionOptions {
   std::uint64_t bench_seed = 0;
   std::uint64_t benchSeed() const { return bench_seed ? bench_seed : seed; }
   OperatorKind who = OperatorKind::automatic;
+  std::string operator_file;  ///< of a custom operator
   /// a simulated operator aims by this patient's images, not by the mean anatomy
   bool knows_patient = false;
   bool force_feedback = true;
@@ -102,8 +106,12 @@ struct SessionOptions {
   LearnerOptions learner;
 };
 
-/// "person", "recorded", "novice", "learner", "expert".
+/// "person", "recorded", "novice", "custom", "learner", "expert".
 const char* nameOf(OperatorKind who);
+
+/// Of the simulated operator: the custom one's, or the shipped one's whose file's name begins so
+/// ("", "palpation_", ...).
+std::filesystem::path operatorFile(const SessionOptions& options, const std::string& engine);
 
 /// What a session says of itself, with the study that it is part of, if any.
 std::string sessionText(nlohmann::json session, const SessionOptions& options);

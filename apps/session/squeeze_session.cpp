@@ -81,9 +81,7 @@ haptics::PairConfig SqueezeWorld::pairConfig(const SessionOptions& options) cons
 }
 
 SessionDevices::Hands SqueezeWorld::hands(const SessionOptions& options) const {
-  const twin::SqueezingSkill skill = twin::readSqueezingSkill(
-      station::assetFile(options.who == OperatorKind::novice ? "operators/squeeze_novice.json"
-                                                             : "operators/squeeze_expert.json"));
+  const twin::SqueezingSkill skill = twin::readSqueezingSkill(operatorFile(options, "squeeze_"));
   auto fingers =
       twin::squeezingHands(skill, {X_WA.inverse() * X_WO, task.half}, station.X_ET, options.seed);
   const auto pickedUp = [&](const Pose& X_WD, double side) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/units.h"
@@ -74,8 +75,12 @@ Scoring scoringOf(const JsonFile& file) {
   rules.touch = file.number("scoring/touch_N", 0.02, 5);
   rules.found_within = kMm * file.number("scoring/found_within_mm", 1, 50);
   rules.normal = normalIn(file);
-  scoring.standard = {file.number("scoring/pass_sensitivity", 0, 1),
-                      file.number("scoring/pass_coverage", 0, 1)};
+  scoring.standard.sensitivity = file.number("scoring/pass_sensitivity", 0, 1);
+  scoring.standard.coverage = file.number("scoring/pass_coverage", 0, 1);
+  if (file.has("scoring/pass_deep_coverage"))
+    scoring.standard.deep_coverage = file.number("scoring/pass_deep_coverage", 0, 1);
+  if (file.has("scoring/pass_false_alarms"))
+    scoring.standard.false_alarms = file.number("scoring/pass_false_alarms", 0, 100);
   return scoring;
 }
 
@@ -201,9 +206,21 @@ namespace {
 
 constexpr int kPlacesTried = 400, kBegunAnew = 200;
 
-std::size_t countOf(const std::vector<double>& shares, double u) {
+constexpr std::uint64_t kOneClearIn = 4;
+
+/// Of every four seeds in a row one, drawn by chance, has no lump, so that no eight cases are
+/// without such a case; the others make up the shares. None where the task wants none.
+std::size_t countFor(std::vector<double> shares, std::uint64_t seed, double u) {
+  if (shares.front() > 0) {
+    RandomStream four(seed / kOneClearIn, "palpation.clear_case");
+    const double drawn = four.uniform() * static_cast<double>(kOneClearIn);
+    if (static_cast<std::uint64_t>(drawn) == seed % kOneClearIn) return 0;
+    shares.front() = std::max(0.0, (shares.front() * kOneClearIn - 1) / (kOneClearIn - 1));
+  }
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
   std::size_t count = 0;
-  for (double sum = shares.front(); count + 1 < shares.size() && u >= sum; sum += shares[count])
+  for (double sum = shares.front(); count + 1 < shares.size() && u * all >= sum;
+       sum += shares[count])
     ++count;
   return count;
 }
@@ -218,7 +235,7 @@ bool farFromAll(const Case& others, const Vec3& p_P, double apart) {
 
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed) {
   RandomStream random(seed, "palpation.case");
-  const std::size_t count = countOf(settings.cases.lumps, random.uniform());
+  const std::size_t count = countFor(settings.cases.lumps, seed, random.uniform());
   return placeLumps(settings, count, random);
 }
 

@@ -60,6 +60,7 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   s.step = kMm * file.number("step_mm", 1, 200);
   s.wander = kMm * file.number("wander_mm", 0, 50);
   s.skip = file.number("skip", 0, 0.9);
+  s.area_share = file.number("area_share", 0.1, 1);
   s.travel_speed = kMm * file.number("travel_speed_mm_per_s", 1, 2000);
   s.press_speed = kMm * file.number("press_speed_mm_per_s", 0.1, 500);
   for (const nlohmann::json& pressure : file.json().value("pressures_N", nlohmann::json::array())) {
@@ -72,8 +73,8 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
     file.refuse("pressures_N", "must hold one to three numbers");
   s.reaction = file.number("reaction_s", 0, 0.6);
   s.weber = file.number("weber", 0, 1);
-  s.looks_closer = file.number("looks_closer", 0, 2);
-  s.marks_from = file.number("marks_from", 0, 2);
+  s.looks_closer = file.number("looks_closer", -2, 2);
+  s.marks_from = file.number("marks_from", -2, 2);
   s.again = file.integer("again", 0, 10);
   s.rounds = file.integer("rounds", 0, 10);
   s.confirms = file.integer("confirms", 0, 10);

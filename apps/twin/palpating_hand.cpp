@@ -48,7 +48,7 @@ void PalpatingHand::planStrips() {
       std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_x / skill_.strip - 1e-9)));
   const int steps =
       std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_y / skill_.step - 1e-9)));
-  for (int i = 0; i < strips; ++i) {
+  for (int i = 0; i < skill_.area_share * strips; ++i) {
     for (int k = 0; k < steps; ++k) {
       const int j = i % 2 == 0 ? k : steps - 1 - k;
       const Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips - 1),

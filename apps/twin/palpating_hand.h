@@ -67,6 +67,7 @@ struct PalpatingSkill {
   double strip = 0, step = 0;          ///< m, between vertical strips, between presses along one
   double wander = 0;                   ///< m, how far from the planned place a press is
   double skip = 0;                     ///< share of places that are left out
+  double area_share = 1;               ///< of the area, from the left, that is searched at all
   double travel_speed = 0, press_speed = 0;  ///< m/s
   /// N, rising, at each of which it is judged how far the surface gave way
   std::vector<double> pressures;

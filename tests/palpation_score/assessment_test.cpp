@@ -1,13 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "apps/assess/palpation/coverage_map.h"
 #include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/assess/palpation/palpation_score.h"
+#include "apps/assess/palpation/palpation_words.h"
 #include "apps/training/trial_words.h"
 #include "searches.h"
 
 namespace palpa::assess {
 namespace {
+
+using training::Outcome;
 
 CaseLump aLump(double x, double y, double diameter = 0.016) {
   return {Vec3(x, y, -0.014), diameter, 2, 1};
@@ -200,8 +205,68 @@ TEST(Judgement, TakesEightCasesThatCount) {
   for (PalpationAssessment& trial : trials) trial.score.coverage[0] = 0.94;
   EXPECT_EQ(judgementOf(trials, {}).verdict, PalpationVerdict::not_passed);
   EXPECT_EQ(judgementOf(std::vector<PalpationAssessment>(9, empty), {}).verdict,
-            PalpationVerdict::too_few_cases)
+            PalpationVerdict::no_lump)
       << "nothing could be missed";
+}
+
+PalpationStandard strict() {
+  PalpationStandard standard;
+  standard.deep_coverage = 0.95;
+  standard.false_alarms = 1;
+  return standard;
+}
+
+TEST(PalpationPass, AsksForDepthAndFewFalseAlarmsWhereTheTaskDoes) {
+  const CaseLump lump = aLump(0.02, 0.02);
+  const LumpMark mark = aMark(0.02, 0.02), wrong = aMark(-0.02, -0.02);
+  PalpationFacts facts;
+  facts.outcome = Outcome::done;
+  const auto below = [&](const std::vector<LumpMark>& marks, double force) {
+    const PalpationAssessment trial = assessPalpation(
+        facts, {}, strict(), {lump}, inStrips(0.034, 0.0085, force).samples(), marks);
+    EXPECT_EQ(trial.passed, trial.below.empty());
+    return trial.below;
+  };
+  using All = std::vector<Shortfall>;
+  EXPECT_EQ(below({mark}, 1.3), All{});
+  EXPECT_EQ(below({mark, wrong}, 1.3), All{});
+  EXPECT_EQ(below({mark, wrong, wrong}, 1.3), All{Shortfall::false_alarms});
+  EXPECT_EQ(below({mark}, 0.5), All{Shortfall::deep_coverage});
+  EXPECT_EQ(below({}, 0.5), (All{Shortfall::sensitivity, Shortfall::deep_coverage}));
+  EXPECT_EQ(standardWords(strict()),
+            "90 % of the lumps and 95 % of the area, 95 % of it deeply, with no more than 1 false "
+            "alarm a case");
+  EXPECT_EQ(standardWords({}), "90 % of the lumps and 95 % of the area");
+}
+
+/// Who marks every quarter of every case finds all lumps, and does not pass.
+TEST(PalpationPass, MarkingEverythingIsNoDiscrimination) {
+  const std::vector<LumpMark> everywhere{aMark(0.02, 0.02), aMark(-0.02, 0.02), aMark(0.02, -0.02),
+                                         aMark(-0.02, -0.02)};
+  std::vector<PalpationAssessment> trials;
+  for (int i = 0; i < 8; ++i)
+    trials.push_back(
+        assessed(i % 4 == 0 ? std::vector<CaseLump>{} : std::vector<CaseLump>{aLump(0.02, 0.02)},
+                 everywhere));
+  const PalpationJudgement judged = judgementOf(trials, strict());
+  EXPECT_EQ(judged.verdict, PalpationVerdict::not_passed);
+  EXPECT_EQ(judged.below, std::vector<Shortfall>{Shortfall::false_alarms});
+  EXPECT_EQ(judged.reached.sensitivity, 1);
+  EXPECT_EQ(judged.reached.false_alarms, 3.25);
+  const statistics::Detections& quarters = judged.quarters;
+  EXPECT_EQ(quarters.signals, 6);
+  EXPECT_EQ(quarters.hits, 6);
+  EXPECT_EQ(quarters.rest, 2 * 4 + 6 * 3);
+  EXPECT_EQ(quarters.alarms, quarters.rest);
+  EXPECT_LT(statistics::discriminationOf(quarters).criterion, -1.5);
+  EXPECT_LT(std::abs(statistics::discriminationOf(quarters).d), 0.7);
+}
+
+TEST(PalpationPass, NeedsACaseThatCanBeLeftAloneWhereFalseAlarmsCount) {
+  const std::vector<PalpationAssessment> trials(9,
+                                                assessed({aLump(0.02, 0.02)}, {aMark(0.02, 0.02)}));
+  EXPECT_EQ(judgementOf(trials, {}).verdict, PalpationVerdict::passed);
+  EXPECT_EQ(judgementOf(trials, strict()).verdict, PalpationVerdict::no_clear_case);
 }
 
 }  // namespace

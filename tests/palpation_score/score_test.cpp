@@ -61,6 +61,11 @@ TEST(PalpationScore, QuartersWithoutALumpCanBeClear) {
   EXPECT_EQ(alarmed.clear_quadrants, 3);
   EXPECT_EQ(alarmed.wrong_quadrants, 1);
   EXPECT_NEAR(alarmed.specificity(), 2.0 / 3, 1e-12);
+  EXPECT_EQ(alarmed.ill_quadrants, 1);
+  EXPECT_EQ(alarmed.hit_quadrants, 1);
+  const PalpationScore missed = scorePalpation({}, {lumpAt(0.025, 0.025)}, {}, {});
+  EXPECT_EQ(missed.ill_quadrants, 1);
+  EXPECT_EQ(missed.hit_quadrants, 0);
   EXPECT_EQ(scorePalpation({}, {lumpAt(0, 0)}, {}, {}).clear_quadrants,
             0);  // in the middle it is near all
 }

@@ -1,5 +1,6 @@
 #include "apps/assess/palpation/palpation_assessment.h"
 
+#include <cmath>
 #include <limits>
 
 #include "apps/assess/palpation/palpation_words.h"
@@ -7,6 +8,24 @@
 namespace palpa::assess {
 
 using training::Outcome;
+
+std::vector<Shortfall> shortOf(const PalpationStandard& standard, const PalpationReached& reached) {
+  std::vector<Shortfall> below;
+  if (reached.sensitivity < standard.sensitivity) below.push_back(Shortfall::sensitivity);
+  if (reached.coverage < standard.coverage) below.push_back(Shortfall::coverage);
+  if (reached.deep_coverage < standard.deep_coverage) below.push_back(Shortfall::deep_coverage);
+  if (reached.false_alarms > standard.false_alarms) below.push_back(Shortfall::false_alarms);
+  return below;
+}
+
+namespace {
+
+PalpationReached reachedIn(const PalpationScore& score) {
+  return {score.sensitivity(), score.coverage.front(), score.coverage.back(),
+          static_cast<double>(score.false_alarms)};
+}
+
+}  // namespace
 
 PalpationAssessment assessPalpation(const PalpationFacts& facts, const PalpationRules& rules,
                                     const PalpationStandard& standard,
@@ -18,8 +37,8 @@ PalpationAssessment assessPalpation(const PalpationFacts& facts, const Palpation
   assessment.marks = marks;
   assessment.score = scorePalpation(rules, lumps, samples, marks);
   const bool finished = facts.outcome != Outcome::aborted && facts.outcome != Outcome::voided;
-  assessment.passed = finished && assessment.score.sensitivity() >= standard.sensitivity &&
-                      assessment.score.coverage[0] >= standard.coverage;
+  assessment.below = shortOf(standard, reachedIn(assessment.score));
+  assessment.passed = finished && assessment.below.empty();
   assessment.summary = palpationSummary(facts, assessment.score);
   assessment.advice = palpationAdvice(assessment, rules, standard, samples);
   return assessment;
@@ -31,22 +50,47 @@ bool counts(const PalpationAssessment& trial) {
          !facts.augmented && facts.outcome != Outcome::voided && facts.outcome != Outcome::none;
 }
 
+namespace {
+
+void add(const PalpationScore& score, PalpationJudgement* sums) {
+  ++sums->cases;
+  const int lumps = score.found + score.missed;
+  sums->clear_cases += lumps == 0;
+  sums->found += score.found;
+  sums->lumps += lumps;
+  const PalpationReached here = reachedIn(score);
+  sums->reached.coverage += here.coverage;
+  sums->reached.deep_coverage += here.deep_coverage;
+  sums->reached.false_alarms += here.false_alarms;
+  sums->quarters.signals += score.ill_quadrants;
+  sums->quarters.hits += score.hit_quadrants;
+  sums->quarters.rest += score.clear_quadrants;
+  sums->quarters.alarms += score.wrong_quadrants;
+}
+
+PalpationVerdict verdictOf(const PalpationJudgement& judgement, const PalpationStandard& standard) {
+  if (judgement.lumps == 0) return PalpationVerdict::no_lump;
+  if (judgement.cases < kEnoughCases) return PalpationVerdict::too_few_cases;
+  if (judgement.clear_cases == 0 && std::isfinite(standard.false_alarms))
+    return PalpationVerdict::no_clear_case;
+  return judgement.below.empty() ? PalpationVerdict::passed : PalpationVerdict::not_passed;
+}
+
+}  // namespace
+
 PalpationJudgement judgementOf(const std::vector<PalpationAssessment>& trials,
                                const PalpationStandard& standard) {
   PalpationJudgement judgement;
-  double felt = 0;
-  for (const PalpationAssessment& trial : trials) {
-    if (!counts(trial)) continue;
-    ++judgement.cases;
-    judgement.found += trial.score.found;
-    judgement.lumps += trial.score.found + trial.score.missed;
-    felt += trial.score.coverage[0];
-  }
-  if (judgement.cases > 0) judgement.coverage = felt / judgement.cases;
-  if (judgement.cases < kEnoughCases || judgement.lumps == 0) return judgement;
-  const bool reached = judgement.found >= standard.sensitivity * judgement.lumps &&
-                       judgement.coverage >= standard.coverage;
-  judgement.verdict = reached ? PalpationVerdict::passed : PalpationVerdict::not_passed;
+  for (const PalpationAssessment& trial : trials)
+    if (counts(trial)) add(trial.score, &judgement);
+  if (judgement.cases == 0) return judgement;
+  PalpationReached& reached = judgement.reached;
+  for (double* sum : {&reached.coverage, &reached.deep_coverage, &reached.false_alarms})
+    *sum /= judgement.cases;
+  reached.sensitivity =
+      judgement.lumps > 0 ? static_cast<double>(judgement.found) / judgement.lumps : 1;
+  judgement.below = shortOf(standard, reached);
+  judgement.verdict = verdictOf(judgement, standard);
   return judgement;
 }
 

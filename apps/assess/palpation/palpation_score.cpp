@@ -83,21 +83,27 @@ double fromQuadrant(const SearchArea& area, int side_x, int side_y, const Vec3& 
   return std::hypot(dx, dy);
 }
 
+/// A lump on the line between two quarters is in both.
 void judgeQuadrants(const PalpationRules& rules, const std::vector<CaseLump>& lumps,
                     const std::vector<LumpMark>& marks, const std::vector<bool>& false_alarm,
                     PalpationScore* score) {
   for (const int side_x : {-1, 1}) {
     for (const int side_y : {-1, 1}) {
-      const bool ill = std::any_of(lumps.begin(), lumps.end(), [&](const CaseLump& lump) {
-        return fromQuadrant(rules.area, side_x, side_y, lump.p_P) <= rules.found_within;
-      });
-      if (ill) continue;
-      ++score->clear_quadrants;
-      for (std::size_t m = 0; m < marks.size(); ++m) {
-        if (!false_alarm[m] || fromQuadrant(rules.area, side_x, side_y, marks[m].p_P) > 0) continue;
-        ++score->wrong_quadrants;
-        break;
+      const auto from = [&](const Vec3& p_P) {
+        return fromQuadrant(rules.area, side_x, side_y, p_P);
+      };
+      bool near = false, ill = false, hit = false, wrong = false;
+      for (std::size_t l = 0; l < lumps.size(); ++l) {
+        near |= from(lumps[l].p_P) <= rules.found_within;
+        ill |= from(lumps[l].p_P) <= 0;
+        hit |= from(lumps[l].p_P) <= 0 && score->lumps[l].mark >= 0;
       }
+      for (std::size_t m = 0; m < marks.size(); ++m)
+        wrong |= false_alarm[m] && from(marks[m].p_P) <= 0;
+      score->ill_quadrants += ill;
+      score->hit_quadrants += hit;
+      score->clear_quadrants += !near;
+      score->wrong_quadrants += !near && wrong;
     }
   }
 }

@@ -48,10 +48,10 @@ struct PalpationScore {
   int found = 0, missed = 0;
   int false_alarms = 0;  ///< marks that are no lump's
   int repeated = 0;      ///< marks of a lump that had been found
-  int clear_quadrants = 0,
-      /// Quarters of the area with no lump within `found_within`; those among them that a false
-      /// alarm calls ill
-      wrong_quadrants = 0;
+  /// Quarters of the area with no lump within `found_within`; those among them that a false alarm
+  /// calls ill
+  int clear_quadrants = 0, wrong_quadrants = 0;
+  int ill_quadrants = 0, hit_quadrants = 0;        ///< with a lump in them; with one that was found
   std::array<double, kPressureLevels> coverage{};  ///< share felt at each level or deeper
   double twice = 0;                                ///< share felt again
   SearchedPattern pattern;

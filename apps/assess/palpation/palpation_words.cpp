@@ -72,13 +72,38 @@ std::string palpationSummary(const PalpationFacts& facts, const PalpationScore& 
          endWords(facts.outcome) + ".";
 }
 
+const char* wordsOf(Shortfall below) {
+  switch (below) {
+    case Shortfall::sensitivity:
+      return "too few lumps found";
+    case Shortfall::coverage:
+      return "too little of the area felt";
+    case Shortfall::deep_coverage:
+      return "too little felt deeply";
+    case Shortfall::false_alarms:
+      break;
+  }
+  return "too many false alarms";
+}
+
+std::string standardWords(const PalpationStandard& standard) {
+  std::string words = percentWords(standard.sensitivity) + " of the lumps and " +
+                      percentWords(standard.coverage) + " of the area";
+  if (standard.deep_coverage > 0)
+    words += ", " + percentWords(standard.deep_coverage) + " of it deeply";
+  if (!std::isfinite(standard.false_alarms)) return words;
+  const bool whole = standard.false_alarms == std::floor(standard.false_alarms);
+  return words + ", with no more than " + decimalWords(standard.false_alarms, whole ? 0 : 1) +
+         (standard.false_alarms == 1 ? " false alarm a case" : " false alarms a case");
+}
+
 namespace {
 
 constexpr double kTooHard = 0.01,
                  // Of the time of touching [chosen: every press begins and ends lightly, that alone
                  // is about 0.15]
     kTooLight = 0.4;
-constexpr double kDeeply = 0.5;    // of the area felt at the deepest level [chosen]
+constexpr double kDeeply = 0.5;    // of the area felt deeply, where no standard asks [chosen]
 constexpr double kCloser = 1.05;   // times the force of searching
 constexpr int kFewestPresses = 8;  // below it nothing can be said of a pattern
 
@@ -194,6 +219,10 @@ void adviseArea(const AdviceSource& source, std::vector<std::string>* advice) {
                     ": go up to the edges, and let the strips overlap.");
 }
 
+double deeply(const PalpationStandard& standard) {
+  return standard.deep_coverage > 0 ? standard.deep_coverage : kDeeply;
+}
+
 void adviseForce(const AdviceSource& source, std::vector<std::string>* advice) {
   const PalpationScore& score = source.of.score;
   if (score.too_hard > kTooHard) {
@@ -206,7 +235,7 @@ void adviseForce(const AdviceSource& source, std::vector<std::string>* advice) {
         "Pressed too lightly: below " + newtonWords(source.rules.levels[0]) + " for " +
         percentWords(score.too_light) +
         " of the time of touching. So light a touch tells little of what lies below.");
-  } else if (score.coverage[0] > 0 && score.coverage.back() < kDeeply) {
+  } else if (score.coverage[0] > 0 && score.coverage.back() < deeply(source.standard)) {
     advice->push_back("Only " + percentWords(score.coverage.back()) +
                       " of the area was felt deeply (" + newtonWords(source.rules.levels.back()) +
                       " or more). Go through light, medium and deep pressure at every place.");

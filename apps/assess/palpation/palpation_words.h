@@ -10,6 +10,13 @@ namespace palpa::assess {
 /// "Found 2 of 3 lumps, one false alarm; 91 % of the area was felt."
 std::string palpationSummary(const PalpationFacts& facts, const PalpationScore& score);
 
+/// "too few lumps found", "too many false alarms", ...
+const char* wordsOf(Shortfall below);
+
+/// "90 % of the lumps and 95 % of the area, 90 % of it deeply, with no more than 1 false alarm a
+/// case".
+std::string standardWords(const PalpationStandard& standard);
+
 /// Sentences for the trainee, the most important first; empty when there is nothing to improve.
 std::vector<std::string> palpationAdvice(const PalpationAssessment& assessment,
                                          const PalpationRules& rules,

@@ -91,7 +91,8 @@ namespace {
 
 constexpr const char* kPalpationHeader =
     "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,LUMPS,FOUND,MISSED,FALSE_ALARMS,REPEATED,CLEAR_"
-    "QUADRANTS,WRONG_QUADRANTS,COVERAGE_LIGHT,COVERAGE_MEDIUM,COVERAGE_DEEP,TWICE,"
+    "QUADRANTS,WRONG_QUADRANTS,ILL_QUADRANTS,HIT_QUADRANTS,COVERAGE_LIGHT,COVERAGE_MEDIUM,COVERAGE_"
+    "DEEP,TWICE,"
     "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,GUIDED,"
     "ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,AT_STANDARD,AUGMENTED";
 
@@ -120,7 +121,7 @@ std::string palpationRow(const std::string& user_id, const assess::PalpationAsse
                      (facts.force_feedback ? ",1," : ",0,") +
                      csvField(training::nameOf(facts.outcome));
   for (const int count : {s.found + s.missed, s.found, s.missed, s.false_alarms, s.repeated,
-                          s.clear_quadrants, s.wrong_quadrants})
+                          s.clear_quadrants, s.wrong_quadrants, s.ill_quadrants, s.hit_quadrants})
     line += ',' + std::to_string(count);
   for (const double share : s.coverage) line += ',' + shortest(share);
   line += ',' + shortest(s.twice) + ',' + assess::nameOf(s.pattern.pattern);

@@ -44,6 +44,8 @@ void writePalpationReport(const PalpationReport& report, const std::filesystem::
 ///   REPEATED                         marks of a lump that had been found
 ///   CLEAR_QUADRANTS                  quarters without a lump
 ///   WRONG_QUADRANTS                  those of them that a false alarm calls ill
+///   ILL_QUADRANTS                    quarters with a lump in them
+///   HIT_QUADRANTS                    those of them with a lump that was found
 ///   COVERAGE_LIGHT COVERAGE_MEDIUM COVERAGE_DEEP     felt at this pressure or a deeper one
 ///   TWICE                            felt again
 ///   PATTERN PATTERN_KEPT PEAK_N MEAN_N

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "apps/assess/palpation/palpation_assessment.h"
+#include "apps/assess/palpation/palpation_words.h"
 #include "apps/assess/statistics/sample.h"
 #include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
@@ -44,7 +45,8 @@ void writePalpationTiles(Html& html, const assess::PalpationAssessment& trial) {
     html.element("strong", value);
   };
   tile("Duration", fixed(trial.score.seconds, 1) + " s");
-  tile("Area felt", fixed(100 * trial.score.coverage[0], 1) + " %");
+  tile("Area felt", fixed(100 * trial.score.coverage.front(), 1) + " %");
+  tile("Felt deeply", fixed(100 * trial.score.coverage.back(), 1) + " %");
   tile("False alarms", std::to_string(trial.score.false_alarms));
   tile("Force feedback", trial.facts.force_feedback ? "on" : "off");
   tile("Seed", std::to_string(trial.facts.seed));
@@ -87,8 +89,11 @@ std::string palpationVerdict(const assess::PalpationAssessment& trial) {
     return "Not counted: " + (trial.facts.augmented ? std::string("cues were added to the forces")
                                                     : training::nameOf(trial.facts.role));
   if (trial.passed) return "At the standard";
-  if (outcome == Outcome::aborted) return "Below the standard: stopped early";
-  return outcome == Outcome::time ? "Below the standard: time limit reached" : "Below the standard";
+  std::vector<std::string> why;
+  if (outcome == Outcome::aborted) why.push_back("stopped early");
+  if (outcome == Outcome::time) why.push_back("time limit reached");
+  for (const assess::Shortfall below : trial.below) why.push_back(assess::wordsOf(below));
+  return "Below the standard: " + assess::joinedWords(why);
 }
 
 Tone toneOfPalpation(const assess::PalpationAssessment& trial) {
@@ -171,22 +176,51 @@ std::string totalsSentence(const PalpationSums& sums) {
   return found + alarms + ".";
 }
 
-Fact judgementFact(const std::vector<PalpationPage>& pages,
-                   const assess::PalpationStandard& standard) {
+assess::PalpationJudgement judged(const std::vector<PalpationPage>& pages,
+                                  const assess::PalpationStandard& standard) {
   std::vector<assess::PalpationAssessment> trials;
   for (const PalpationPage& page : pages) trials.push_back(page.assessment);
-  const assess::PalpationJudgement judgement = assess::judgementOf(trials, standard);
+  return assess::judgementOf(trials, standard);
+}
+
+std::string reachedWords(const assess::PalpationJudgement& judgement) {
+  const assess::PalpationReached& r = judgement.reached;
+  return assess::percentWords(r.sensitivity) + " of the lumps, " +
+         assess::percentWords(r.coverage) + " of the area, " +
+         assess::percentWords(r.deep_coverage) + " deeply, " + fixed(r.false_alarms, 1) +
+         " false alarms a case";
+}
+
+Fact judgementFact(const assess::PalpationJudgement& judgement,
+                   const assess::PalpationStandard& standard) {
   using assess::PalpationVerdict;
-  if (judgement.lumps == 0) return {"Passed?", "not judged", "no lump was there to be found"};
-  if (judgement.verdict == PalpationVerdict::too_few_cases)
-    return {"Passed?", "not judged",
-            "that takes " + std::to_string(assess::kEnoughCases) + " cases or more; here " +
-                std::to_string(judgement.cases) + ": so few tell little of a person"};
-  const auto percent = [](double value) { return fixed(100 * value, 0) + " %"; };
-  return {"Passed?", judgement.verdict == PalpationVerdict::passed ? "yes" : "no",
-          percent(standard.sensitivity) + " of the lumps and " + percent(standard.coverage) +
-              " of the area are asked for; felt on average: " +
-              percent(std::floor(100 * judgement.coverage) / 100)};
+  switch (judgement.verdict) {
+    case PalpationVerdict::no_lump:
+      return {"Passed?", "not judged", "no lump was there to be found"};
+    case PalpationVerdict::too_few_cases:
+      return {"Passed?", "not judged",
+              "that takes " + std::to_string(assess::kEnoughCases) + " cases or more; here " +
+                  std::to_string(judgement.cases) + ": so few tell little of a person"};
+    case PalpationVerdict::no_clear_case:
+      return {"Passed?", "not judged", "no case was without a lump: nothing could be left alone"};
+    default:
+      break;
+  }
+  std::vector<std::string> below;
+  for (const assess::Shortfall one : judgement.below) below.push_back(assess::wordsOf(one));
+  return {
+      "Passed?", below.empty() ? "yes" : "no: " + assess::joinedWords(below),
+      "asked for: " + assess::standardWords(standard) + "; reached: " + reachedWords(judgement)};
+}
+
+/// "2.4" and what it and the criterion mean.
+Fact discriminationFact(const statistics::Detections& quarters) {
+  const statistics::Discrimination told = statistics::discriminationOf(quarters);
+  if (!std::isfinite(told.d)) return {"d′", "–", "nothing to tell it from"};
+  return {"d′", fixed(told.d, 1),
+          "quarters with a lump told from clear ones: 0 by chance, above 3 nearly always. "
+          "Criterion " +
+              fixed(told.criterion, 1) + ": above 0 marks too little, below 0 too readily"};
 }
 
 }  // namespace
@@ -200,6 +234,7 @@ void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials,
     html.element("p", "No trial counts: none was both scored and finished.");
     return;
   }
+  const assess::PalpationJudgement judgement = judged(trials, standard);
   html.element("p", totalsSentence(sums));
   writeFactTable(
       html, {{"Lumps found", std::to_string(sums.found) + " of " + std::to_string(sums.lumps), ""},
@@ -207,9 +242,10 @@ void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials,
              shareFact("Specificity", sums.clear - sums.wrong, sums.clear,
                        "of the quarters without a lump, those left clear"),
              {"False alarms", std::to_string(sums.false_alarms), "marks where no lump is"},
+             discriminationFact(judgement.quarters),
              {"At the standard",
               std::to_string(sums.passed) + " of " + numberOf(sums.trials, "trial", "trials"), ""},
-             judgementFact(trials, standard)});
+             judgementFact(judgement, standard)});
   std::string note =
       "The intervals take all lumps, and all quarters, as independent of each other: read them as "
       "a lower bound of the doubt.";
@@ -231,8 +267,12 @@ void writePalpationGlossary(Html& html) {
        "felt, nothing can be found."},
       {"False alarm", "A mark with no lump near it."},
       {"At the standard",
-       "In this trial enough lumps were found and enough of the area was felt, as the task asks. "
-       "One trial passes or fails nobody."},
+       "In this trial enough lumps were found, enough of the area was felt, lightly and deeply, "
+       "and "
+       "there were no more false alarms than the task allows. One trial passes or fails nobody."},
+      {"d′",
+       "How well quarters with a lump are told from clear ones, whichever way doubt is settled: "
+       "marking everything finds every lump and raises it not at all."},
       {"Closer look", "Several presses about one place, in contrast to the search, which goes on."},
       {"95 % interval", "What the true share may well be, as few trials tell little (Wilson)."}};
   html.element("h2", "What these words mean");
@@ -247,7 +287,8 @@ void writePalpationGlossary(Html& html) {
       "p", {{"class", "muted"}},
       "Sources: vertical strips miss least: M. B. Barton, R. Harris, S. W. Fletcher, JAMA 282, "
       "1999. Clinicians who find press about 15 % more when they look closer: PMC10980574. "
-      "The interval: E. B. Wilson, J. Am. Stat. Assoc. 22, 1927.");
+      "The interval: E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. d′ with the log-linear rule: "
+      "M. J. Hautus, Behav. Res. Methods 27, 1995.");
 }
 
 }  // namespace palpa::report
