@@ -6,18 +6,24 @@
 namespace palpa::scene {
 namespace {
 
-constexpr double kArShare = 0.7;
+constexpr double kArShare = 0.7, kArShareOfTwo = 0.5;
 constexpr int kGap_px = 2;
 
 }  // namespace
 
-Panels layoutPanels(int width, int height, bool orthographic) {
+Panels layoutPanels(int width, int height, FixedViews fixed_views) {
   Panels panels;
-  panels.orthographic = orthographic;
-  const int ar_width = orthographic ? static_cast<int>(std::lround(kArShare * width)) : width;
+  const double share = fixed_views == FixedViews::three ? kArShare
+                       : fixed_views == FixedViews::one ? kArShareOfTwo
+                                                        : 1;
+  const int ar_width = static_cast<int>(std::lround(share * width));
   panels.ar = {0, 0, ar_width, height};
   const int x = ar_width + kGap_px;
   const int column = std::max(1, width - x);
+  if (fixed_views == FixedViews::one) {
+    panels.front = panels.side = panels.top = {x, 0, column, height};
+    return panels;
+  }
   const int y1 = height / 3, y2 = 2 * height / 3;
   panels.top = {x, 0, column, std::max(1, y1)};
   panels.side = {x, y1 + kGap_px, column, std::max(1, y2 - y1 - kGap_px)};

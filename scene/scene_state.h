@@ -84,6 +84,9 @@ enum class Inset { none, camera };
 
 enum class SkinStyle { solid, translucent, hidden };
 
+/// Of a patient: from the front, from the side, from the top.
+inline constexpr int kFixedViews = 3;
+
 /// What a mark on a strip means; also its height, so that colour does not stand alone.
 enum class TickTone { neutral, good, guide, bad };
 
@@ -105,7 +108,7 @@ struct Timeline {
 /// Words on the picture; empty lines are left out.
 struct Hud {
   std::string phase;    ///< "Phase 1: puncture the skin"
-  std::string depth;    ///< "12 mm under the skin"
+  std::string depth;    ///< "12 mm inserted, in fat"
   std::string force;    ///< "1.2 N"
   std::string time;     ///< "0:31"
   std::string touched;  ///< "clavicle (guide)", "pleura!"
@@ -135,6 +138,7 @@ struct SceneState {
   double plunger = 0;  ///< drawn fraction, 0..1
   double blood = 0;    ///< fraction of the syringe filled with blood, 0..1
   SkinStyle skin = SkinStyle::translucent;
+  int fixed_view = 0;  ///< which one, where one is shown at a time
   /// How a tool presses the skin in or draws it out; shown by views with
   /// `ViewLayout::skin_deflection`.
   std::optional<anatomy::SkinPush> skin_push;

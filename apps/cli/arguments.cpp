@@ -111,6 +111,13 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
   command.add_flag("--assess", o.assess,
                    "Assessment: every aid is off, as in an examination; a needle trial ends at "
                    "the fourth pass");
+  command
+      .add_option(
+          "--presentation", o.presentation,
+          "What may be seen: practice, assessed, pilot, substitution, or a file like those "
+          "in assets/presentations. Default: practice; without force feedback practice that "
+          "does not show the force either; assessed with --assess")
+      ->type_name("NAME|FILE");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")
       ->type_name("DIR");
   command

@@ -69,7 +69,7 @@ ReplayStage stageFor(const evidence::RecordedShow& recorded, scene::Display disp
   scene::ViewLayout layout;
   layout.width = size.width;
   layout.height = size.height;
-  layout.orthographic = recorded.fixedViews();
+  layout.fixed_views = recorded.fixedViews() ? scene::FixedViews::three : scene::FixedViews::none;
   if (recorded.pictures()) layout.inset = scene::Inset::camera;
   stage.view = std::make_unique<scene::SceneView>(*stage.context, recorded.patient(), layout);
   return stage;

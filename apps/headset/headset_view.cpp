@@ -80,7 +80,9 @@ void HeadsetView::addView(const anatomy::Patient& patient) {
   scene::ViewLayout layout;
   layout.width = 2 * width_;
   layout.height = height_;
-  layout.orthographic = layout.free_navigation = false;
+  layout.fixed_views = scene::FixedViews::none;
+  layout.free_navigation = false;
+  layout.inside = setup_.inside;
   layout.stereo = scene::Stereo::headset;
   layout.see_through = headset_->blend() != ar::Blend::opaque;
   layout.force_colours = setup_.force_colours;

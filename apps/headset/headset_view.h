@@ -35,6 +35,7 @@ struct HeadsetViewSetup {
   bool left_handed = false;
   scene::ForceColours force_colours = scene::ForceColours::paper;
   bool skin_deflection = false;
+  bool inside = true;  ///< what lies under the skin is drawn
 };
 
 /// A headset that shows the scene: the patient lies before the person (again whenever they ask for

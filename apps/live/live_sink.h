@@ -40,7 +40,7 @@ class ForceCurve {
   struct Point {
     double t_s = 0;  ///< session time
     double force_N = 0;
-    double depth_mm = 0;  ///< under the skin; 0 for what has no needle
+    double depth_mm = 0;  ///< of needle inserted; 0 for what has no needle
   };
   void add(const haptics::FlightRecord& record);
   /// The points that are complete since the last call, as an entry: {"kind": "curve", "trial",

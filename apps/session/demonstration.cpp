@@ -93,6 +93,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   setup.X_WA = world.X_WA;
   setup.X_WD = world.station.X_WD;
   setup.mark = "DEMONSTRATION: SIMULATED EXPERT";
+  setup.shown = shownIn(options);
   setup.input = [&](const scene::ViewInput& input, std::int64_t) { handleKeys(input, channels); };
   task_needle::NeedleScene scene(shown, bus, channels);
   executive->add(playback, {0, false, false});

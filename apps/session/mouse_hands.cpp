@@ -98,7 +98,6 @@ void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
       request_.plunger = std::min(1.0, request_.plunger + kPlungerPerKey);
     if (key == push || (key == "X" && !setup_.left_handed))
       request_.plunger = std::max(0.0, request_.plunger - kPlungerPerKey);
-    if ((key == "t" || key == "T") && skin_key_) skin_key_();
   }
   request_.turn_medial = std::clamp(request_.turn_medial, -kSteepestTurn, kSteepestTurn);
   request_.turn_cephalad = std::clamp(request_.turn_cephalad, -kSteepestTurn, kSteepestTurn);

@@ -41,7 +41,6 @@ class MouseHand final : public runtime::Activity {
   /// moved: from there the mouse leads on.
   void hold(const headset::HeldController& held, std::int64_t now_ns);
   void letGo(std::int64_t now_ns);  ///< the mouse leads again
-  void onSkinKey(std::function<void()> action) { skin_key_ = std::move(action); }
 
  private:
   struct MouseRequest {
@@ -63,7 +62,6 @@ class MouseHand final : public runtime::Activity {
   double mouse_x_ = 0, mouse_y_ = 0;
   bool dragging_ = false;
   std::int64_t seen_ns_ = 0;  // the controller
-  std::function<void()> skin_key_;
   // The mouse thread's, smoothed.
   Pose X_AT_;
   double plunger_ = 0;

@@ -55,7 +55,6 @@ class NeedleSession {
                 const std::filesystem::path& folder)
       : options_(options), world_(world), folder_(folder) {
     MouseHand* mouse = frame_.devices().mouse();
-    if (mouse && !options_.assess) mouse->onSkinKey([this] { scene_.cycleSkin(); });
     if (mouse && head_.view)
       head_.view->onHeld([this, mouse](const headset::HeldController& held) {
         mouse->hold(held, frame_.executive().clock().now());

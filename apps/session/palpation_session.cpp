@@ -156,13 +156,11 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
 }
 
 std::string PalpationWorld::forceNote() const {
-  if (station.safety.max_force_N >= task.clinical_force_N &&
-      task.scoring.rules.levels[2] >= task.clinical_force_N)
-    return "";
-  char text[128];
-  std::snprintf(text, sizeof text, "Scaled force: deep is %.1f N here, about %.0f N on a patient",
-                task.scoring.rules.levels[2], task.clinical_force_N);
-  return text;
+  const double deep = task.scoring.rules.levels.back(), clinical = task.clinical_force_N;
+  const std::string here = format("Scaled force: deep is %.1f N here", deep);
+  if (clinical <= 0) return here;
+  if (station.safety.max_force_N >= clinical && deep >= clinical) return "";
+  return here + format(", about %.0f N on a patient", clinical);
 }
 
 namespace {

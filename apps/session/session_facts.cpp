@@ -57,6 +57,7 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
        format("%.1f N, stable to %.0f N/m", station.device.capabilities.max_force_N,
               station.device.capabilities.stable_stiffness)},
       {"Calibration", station.calibration_verdict, station.calibration_date},
+      {"On the screen", shownIn(options).name, presentation::describe(shownIn(options))},
       {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
       {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
   if (!options.study.id.empty())

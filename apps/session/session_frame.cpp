@@ -66,6 +66,7 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
   stage.X_WA = world_.X_WA;
   stage.X_WD = world_.station.X_WD;
   stage.mark = markFor(options_.who, world_.station);
+  stage.shown = shownIn(options_);
   stage.folder = folder_;
   stage.every_source_picture = pictures_.photographs();
   stage.places = places();

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
 namespace palpa::session {
@@ -33,11 +34,15 @@ void settleAssessment(SessionOptions& o) {
       throw UsageError("is an aid or practice, and in an assessment every aid is off",
                        std::string(option) + " with --assess", "Leave one of them out");
   o.role = training::Role::assessed;
-  o.navigation = o.demonstration = false;
+  o.demonstration = false;
+  if (const presentation::Presentation shown = shownIn(o); !presentation::unaided(shown))
+    throw UsageError(
+        "shows what is not there without a simulator (" + presentation::describe(shown) + ")",
+        "--presentation with --assess", "Choose assessed or pilot");
   if (!o.quiet)
     std::puts(
-        "Assessment: every aid is off: the view stays fixed, the screen shows neither tissue nor "
-        "force, no demonstration");
+        "Assessment: every aid is off: the view stays fixed, the skin is solid, the screen shows "
+        "neither anatomy nor tissue nor force, no demonstration");
 }
 
 }  // namespace
@@ -65,7 +70,21 @@ std::filesystem::path operatorFile(const SessionOptions& options, const std::str
   return station::assetFile("operators/" + engine + skilled + ".json");
 }
 
+presentation::Presentation shownIn(const SessionOptions& options) {
+  const std::string& named = options.presentation;
+  if (std::filesystem::path(named).extension() == ".json")
+    return presentation::readPresentation(named);
+  const auto shipped = [](const std::string& name) {
+    return presentation::readPresentation(station::assetFile("presentations/" + name + ".json"));
+  };
+  if (!named.empty()) return shipped(named);
+  if (training::inAssessment(options.role)) return shipped("assessed");
+  const presentation::Presentation practice = shipped("practice");
+  return options.force_feedback ? practice : presentation::withoutForces(practice);
+}
+
 std::string sessionText(nlohmann::json session, const SessionOptions& options) {
+  session["presentation"] = nlohmann::json::parse(presentation::textOf(shownIn(options)));
   const StudyStep& s = options.study;
   if (!s.id.empty())
     session["study"] = {{"id", s.id},

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "anatomy/patient.h"
+#include "apps/presentation/presentation.h"
 #include "apps/training/trial_words.h"
 #include "scene/scene_state.h"
 #include "scene/window/gl_context.h"
@@ -71,7 +72,9 @@ struct SessionOptions {
   std::string records;  ///< where finished trials go; empty: nobody is recorded
   bool fast = false;
   bool no_views = false;
-  bool record_video = false;     ///< keep the camera's pictures
+  bool record_video = false;  ///< keep the camera's pictures
+  /// What may be seen: a set of assets/presentations or a file; empty: by role and force feedback
+  std::string presentation;
   bool navigation = true;        ///< free navigation of the view
   bool skin_deflection = false;  ///< the skin is shown to give way
   bool guide = false;            ///< a line from the entry point to the vein: not scored
@@ -112,6 +115,10 @@ const char* nameOf(OperatorKind who);
 /// Of the simulated operator: the custom one's, or the shipped one's whose file's name begins so
 /// ("", "palpation_", ...).
 std::filesystem::path operatorFile(const SessionOptions& options, const std::string& engine);
+
+/// What may be seen in it. As named; else in an assessment `assessed`; else practice, where no
+/// force is felt without what replaces feeling.
+presentation::Presentation shownIn(const SessionOptions& options);
 
 /// What a session says of itself, with the study that it is part of, if any.
 std::string sessionText(nlohmann::json session, const SessionOptions& options);

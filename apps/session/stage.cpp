@@ -5,13 +5,30 @@
 #include "anatomy/base/error.h"
 
 namespace palpa::session {
+namespace {
+
+scene::FixedViews fixedViews(const presentation::Presentation& shown) {
+  switch (shown.views) {
+    case presentation::FixedViews::none:
+      return scene::FixedViews::none;
+    case presentation::FixedViews::one:
+      return scene::FixedViews::one;
+    case presentation::FixedViews::three:
+      break;
+  }
+  return scene::FixedViews::three;
+}
+
+}  // namespace
 
 DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
                        bool fixed_views) {
+  const presentation::Presentation shown = shownIn(options);
   scene::ViewLayout layout;
-  layout.orthographic = fixed_views;
-  layout.free_navigation = options.navigation;
-  layout.skin_deflection = options.skin_deflection;
+  layout.fixed_views = fixed_views ? fixedViews(shown) : scene::FixedViews::none;
+  layout.inside = shown.anatomy;
+  layout.free_navigation = options.navigation && shown.navigation;
+  layout.skin_deflection = options.skin_deflection && shown.skin_deflection;
   layout.force_colours = options.force_colours;
   layout.stereo = options.stereo;
   layout.inset = options.inset;
@@ -38,7 +55,9 @@ HeadStage makeHeadStage(const SessionOptions& options, const anatomy::Patient& p
   setup.focus_A = patient.landmark(anatomy::landmark::kEntry);
   setup.left_handed = options.left_handed;
   setup.force_colours = options.force_colours;
-  setup.skin_deflection = options.skin_deflection;
+  const presentation::Presentation shown = shownIn(options);
+  setup.skin_deflection = options.skin_deflection && shown.skin_deflection;
+  setup.inside = shown.anatomy;
   try {
     stage.view = std::make_unique<headset::HeadsetView>(patient, std::move(setup));
     if (desktop.context) desktop.context->neverWait();

@@ -63,13 +63,15 @@ void needOneOf(const JsonFile& file, const std::string& field, const std::string
 
 /// What `file` says, over what `before` says. A misspelt field would be a condition that is none,
 /// so unknown ones are refused.
-Presentation presentationIn(const JsonFile& file, Presentation before) {
+Setting settingIn(const JsonFile& file, Setting before) {
   if (!file.json().is_object()) file.refuse("", "must be fields of what is shown and felt");
-  static const std::set<std::string> kKnown{
-      "force_feedback", "augment", "skin_deflection", "guide", "guidance", "navigation", "mode"};
+  static const std::set<std::string> kKnown{"force_feedback",  "presentation", "augment",
+                                            "skin_deflection", "guide",        "guidance",
+                                            "navigation",      "mode"};
   for (const auto& [field, ignored] : file.json().items()) needOneOf(file, field, field, kKnown);
-  Presentation p = std::move(before);
+  Setting p = std::move(before);
   p.force_feedback = file.flag("force_feedback", p.force_feedback);
+  if (file.has("presentation")) p.presentation = file.text("presentation");
   p.augment = file.flag("augment", p.augment);
   p.skin_deflection = file.flag("skin_deflection", p.skin_deflection);
   p.guide = file.flag("guide", p.guide);
@@ -215,12 +217,12 @@ Protocol readProtocol(const std::filesystem::path& path) {
   p.groups = namedIn<Group>(file, "groups", [](const JsonFile& f) {
     return Group{needName(f, "name"), f.text("means")};
   });
-  const Presentation always = presentationIn(partOf(file, "always"), {});
+  const Setting always = settingIn(partOf(file, "always"), {});
   p.conditions = namedIn<StudyCondition>(file, "conditions", [&](const JsonFile& f) {
     if (f.text("name") == kDrawn)
       f.refuse("name", "is \"drawn\", which means the condition that a trainee draws");
     return StudyCondition{needName(f, "name"), f.text("means"),
-                          presentationIn(partOf(f, "sets"), always)};
+                          settingIn(partOf(f, "sets"), always)};
   });
   if (file.has("allocation")) p.allocation = allocationIn(partOf(file, "allocation"), p);
   p.sessions =

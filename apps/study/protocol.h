@@ -16,9 +16,11 @@ class JsonFile;
 
 namespace palpa::study {
 
-/// What is shown and felt.
-struct Presentation {
+/// What is felt, and what of it is shown.
+struct Setting {
   bool force_feedback = true;
+  /// What may be seen: a set of assets/presentations or a file; empty: by role and force feedback
+  std::string presentation;
   bool augment = false;          ///< the task's cues are added
   bool skin_deflection = false;  ///< the skin is shown to give way
   bool guide = false;            ///< needle: a line to the vein; such trials are not scored
@@ -29,7 +31,7 @@ struct Presentation {
 
 struct StudyCondition {
   std::string name, means;
-  Presentation shows;
+  Setting shows;
 };
 
 struct Group {

@@ -27,7 +27,10 @@ std::string depthText(const runtime::ToolState& tool, const TaskWords& words) {
     case haptics::NeedlePhase::inserted:
       break;
   }
-  return format("%.0f mm under ", tool.depth * 1e3) + surface + ", in " +
+  // The length of needle that is inside: on an oblique way more than the depth under the surface.
+  const std::string inserted = format("%.0f mm inserted, ", tool.depth * 1e3);
+  if (tool.tissue == Tissue::bone) return inserted + "at " + words.of(tool.tissue);
+  return inserted + "in " +
          (tool.tissue == Tissue::vein_lumen ? "the vein" : words.of(tool.tissue));
 }
 
@@ -48,24 +51,22 @@ bool injury(const runtime::ToolState& tool) {
 }
 
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
-                   const std::string& camera, const std::string& mark, const TaskWords& words) {
+                   const std::string& camera, const std::string& mark, const TaskWords& words,
+                   const presentation::Presentation& shown) {
   scene::Hud hud;
-  const bool active = status.active(),
-             told =
-                 !training::inAssessment(status.role);  // what a patient would not tell is an aid
-  hud.phase = active && told ? status.step : "";
+  const bool active = status.active();
+  hud.phase = active && shown.guidance ? status.step : "";
   if (status.trials > 1 && status.trial > 0)
     hud.phase = format("Trial %d of %d  ", status.trial, status.trials) + hud.phase;
   if (active) {
-    if (told) hud.depth = depthText(tool, words);
-    if (told)
-      hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +
-                  (status.force_feedback ? "" : " (force feedback off)");
+    hud.depth = depthText(tool, words);
+    hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +
+                (status.force_feedback ? "" : " (force feedback off)");
     const int seconds = static_cast<int>(status.elapsed_s);
     hud.time = format("%d:%02d", seconds / 60, seconds % 60);
-    if (told) hud.touched = touchedText(tool);
+    hud.touched = touchedText(tool);
   }
-  const bool hurts = active && told && injury(tool);
+  const bool hurts = active && shown.contact_words && injury(tool);
   std::string own;
   if (hurts)
     own = "The needle touches the " +
@@ -174,7 +175,7 @@ void NeedleScene::compose(scene::SceneState& state, const runtime::ToolState& to
   if (skin_) state.skin_push = skin_->follow(tool, X_AD(), now_ns());
   state.plunger = tool.plunger;
   state.blood = status_.blood;
-  state.hud = hudText(status_, tool, trouble, mark(), setup_.words);
+  state.hud = hudText(status_, tool, trouble, mark(), setup_.words, shown());
   showForces(state, tool);
   leaveTrail(state, tool);
 }
@@ -206,7 +207,7 @@ void NeedleScene::leaveTrail(scene::SceneState& state, const runtime::ToolState&
 
 void NeedleScene::addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) {
   displayed.blood_flows = status_.blood_flows;
-  displayed.injury = displayed.running && injury(tool);
+  displayed.injury = displayed.running && shown().contact_words && injury(tool);
 }
 
 }  // namespace palpa::task_needle

@@ -16,11 +16,12 @@ namespace palpa::task_needle {
 /// The needle is in the lung or an artery, or in their walls.
 bool injury(const runtime::ToolState& tool);
 
-/// The HUD's lines in clinical words; in assessment only what is there without a simulator: the
-/// trial, the time, the blood. `camera`: what is wrong with the camera
+/// The HUD's lines in clinical words. The step that a trial has come to leads, and is there with
+/// guidance; an injury is told with words of contact. `camera`: what is wrong with the camera
 /// (apps/runtime/camera_trouble.h); empty: nothing.
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
-                   const std::string& camera, const std::string& mark, const TaskWords& words = {});
+                   const std::string& camera, const std::string& mark, const TaskWords& words = {},
+                   const presentation::Presentation& shown = {});
 
 /// How the needle moves the skin that is shown.
 ///   before puncture   the skin is where the tip is: pushed from the tip's nearest point on it,

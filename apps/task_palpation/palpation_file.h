@@ -45,7 +45,7 @@ struct PalpationSettings {
   /// judged by scoring.rules.normal)
   Case anatomy;
   /// That deep palpation takes on a patient; where the device gives less, the screen says "scaled
-  /// force"
+  /// force". 0: nobody has measured it there
   double clinical_force_N = 0;
   double time_limit_s = 300;
   station::Taxonomy taxonomy;

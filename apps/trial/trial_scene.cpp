@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/runtime/camera_trouble.h"
+#include "apps/trial/shown.h"
 
 namespace palpa::trial {
 namespace {
@@ -124,18 +125,24 @@ TrialScene::TrialScene(const Stage& stage, runtime::Bus& bus, Channels& channels
       X_AD_((stage.X_WD.inverse() * stage.X_WA).inverse()) {
   const calibration::CameraModel& p = undistorter_.pinhole();
   state_.camera = {p.width, p.height, p.fx, p.fy, p.cx, p.cy};
+  state_.skin = firstSkin(stage.shown);
 }
 
-void TrialScene::cycleSkin() {
-  state_.skin = state_.skin == scene::SkinStyle::translucent ? scene::SkinStyle::solid
-                : state_.skin == scene::SkinStyle::solid     ? scene::SkinStyle::hidden
-                                                             : scene::SkinStyle::translucent;
+/// T: the skin's look. V: the next fixed view.
+void TrialScene::handle(const scene::ViewInput& input) {
+  for (const std::string& key : input.keys) {
+    if (key == "t" || key == "T") state_.skin = nextSkin(stage_.shown, state_.skin);
+    if (key == "v" || key == "V") state_.fixed_view = (state_.fixed_view + 1) % scene::kFixedViews;
+  }
 }
 
 std::int64_t TrialScene::step(std::int64_t now_ns) {
   now_ns_ = now_ns;
-  if (stage_.view && stage_.input)
-    stage_.input(stage_.view->poll(), now_ns);  // before whatever makes it wait
+  if (stage_.view && stage_.input) {  // before whatever makes it wait
+    const scene::ViewInput input = stage_.view->poll();
+    handle(input);
+    stage_.input(input, now_ns);
+  }
   const bool worn = stage_.head && stage_.head->wait(mayWait(tool_));
   follow(now_ns);
   composeAll();
@@ -192,6 +199,7 @@ void TrialScene::composeAll() {
   showEllipse(camera.empty());
   hideBehindRealThings();
   if (stage_.more) stage_.more(state_);
+  keepShown(stage_.shown, &state_);
 }
 
 void TrialScene::showEllipse(bool camera_good) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/presentation/presentation.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
 #include "apps/runtime/camera_trouble.h"
@@ -44,6 +45,7 @@ class TrialScene : public runtime::Activity {
     calibration::CameraModel camera;
     Pose X_WA = Pose::Identity(), X_WD = Pose::Identity();
     std::string mark;                   ///< "SIMULATED OPERATOR", ...
+    presentation::Presentation shown;   ///< what may be seen of all that a task puts together
     std::filesystem::path folder;       ///< where view-*.png go
     bool every_source_picture = false;  ///< recorded pictures: keep one overlay for each of them
     std::int64_t display_latency_ns = 33'000'000;
@@ -69,7 +71,6 @@ class TrialScene : public runtime::Activity {
   const std::vector<SavedPicture>& pictures() const { return pictures_; }
   /// The board as it was seen last.
   const std::optional<ar::BoardPose>& board() const { return board_; }
-  void cycleSkin();
 
  protected:
   /// Reads the task's status; told before anything is composed.
@@ -88,8 +89,10 @@ class TrialScene : public runtime::Activity {
   std::int64_t now_ns() const { return now_ns_; }
   const Pose& X_AD() const { return X_AD_; }
   const std::string& mark() const { return stage_.mark; }
+  const presentation::Presentation& shown() const { return stage_.shown; }
 
  private:
+  void handle(const scene::ViewInput& input);
   void follow(std::int64_t now_ns);
   std::string trouble();
   void composeAll();

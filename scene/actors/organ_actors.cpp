@@ -138,6 +138,12 @@ void OrganActors::setVisible(bool visible) {
   apply();
 }
 
+void OrganActors::setInside(bool shown) {
+  if (shown == inside_) return;
+  inside_ = shown;
+  apply();
+}
+
 void OrganActors::setPose(const Pose& X_AB) {
   if (!moved_ && X_AB.matrix().isIdentity(0)) return;
   copy(X_AB, *X_AB_);
@@ -160,7 +166,7 @@ void OrganActors::moveTo(bool glass, OrganPart& part) {
 
 void OrganActors::apply() {
   for (OrganPart& part : parts_) {
-    const bool hidden = coversOrgans(part.organ) && style_ == SkinStyle::hidden;
+    const bool hidden = coversOrgans(part.organ) ? style_ == SkinStyle::hidden : !inside_;
     part.actor->SetVisibility(visible_ && !hidden);
     const double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;
     part.actor->GetProperty()->SetOpacity(opacity);

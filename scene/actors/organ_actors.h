@@ -37,6 +37,7 @@ class OrganActors {
 
   void setStyle(SkinStyle style);
   void setVisible(bool visible);
+  void setInside(bool shown);  ///< what does not cover organs
   /// Where the body is that was made in A: a thing that is held moves. Only what is not translucent
   void setPose(const Pose& X_AB);
   /// The first skin's points as they are drawn; null without one
@@ -57,7 +58,7 @@ class OrganActors {
   std::vector<OrganPart> parts_;
   vtkSmartPointer<vtkPolyData> skin_;
   SkinStyle style_ = SkinStyle::translucent;
-  bool visible_ = true, moved_ = false;
+  bool visible_ = true, inside_ = true, moved_ = false;
   vtkNew<vtkMatrix4x4> X_AB_;
 };
 

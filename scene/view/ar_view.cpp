@@ -109,6 +109,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       ellipse_(*above_, colour::kAdvice, 1.8),
       search_(*on_skin_, *above_, 2.5),
       occluders_(*renderer_) {
+  organs_.setInside(layout.inside);
   if (layout.skin_deflection && organs_.skin())
     skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
   setUpRenderers();

@@ -23,25 +23,29 @@ constexpr double kPinSmall_px = 6;   // a pin's head in a window 720 pixels high
 }  // namespace
 
 OrthoView::OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
-                     Plane plane)
+                     Plane plane, bool inside)
     : window_(window),
       plane_(plane),
       region_(region),
       aspect_(region.on_table ? aspectOnTable(plane) : aspectOf(plane, patient.side)),
       organs_(*renderer_, patient),
-      section_(sectionOf(patient)),
+      section_(inside ? sectionOf(patient) : nullptr),
       backdrop_(*renderer_, false),
       search_(*renderer_, *renderer_, 1.6),
       tool_(*renderer_),
       plates_(*renderer_) {
   setUpRenderer(*renderer_, colour::kPanel);
-  organs_.setStyle(region_.only_skin ? SkinStyle::translucent : SkinStyle::hidden);
+  organs_.setStyle(!inside             ? SkinStyle::solid
+                   : region_.only_skin ? SkinStyle::translucent
+                                       : SkinStyle::hidden);
   if (section_) renderer_->AddActor(section_);
   aimCamera();
   window_.AddRenderer(renderer_);
 }
 
 OrthoView::~OrthoView() { window_.RemoveRenderer(renderer_); }
+
+void OrthoView::setDrawn(bool drawn) { renderer_->SetDraw(drawn); }
 
 void OrthoView::addTrail(Trail& trail) { trail_ = trail.addTo(*renderer_, 1.5); }
 

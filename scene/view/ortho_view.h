@@ -20,13 +20,16 @@ class vtkRenderWindow;
 
 namespace palpa::scene {
 
-/// A fixed parallel view. The anatomy in it never moves, so it is drawn once, kept as a picture and
-/// put behind the tool; the tool therefore shows through the organs, as on a radiograph.
+/// A fixed parallel view; `inside`: through the skin. The anatomy in it never moves, so it is drawn
+/// once, kept as a picture and put behind the tool; the tool therefore shows through the organs, as
+/// on a radiograph.
 class OrthoView {
  public:
   OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
-            Plane plane);
+            Plane plane, bool inside = true);
   ~OrthoView();
+
+  void setDrawn(bool drawn);
 
   void addTrail(Trail& trail);
   void place(const Rect& where, int window_width, int window_height);

@@ -75,9 +75,9 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
     other_hud = std::make_unique<HudPainter>(*words, layout.force_colours);
   words->SetLayer(2);
   ar.addTrail(trail);
-  if (layout.orthographic) {
+  if (layout.fixed_views != FixedViews::none) {
     for (Plane plane : {Plane::frontal, Plane::sagittal, Plane::axial}) {
-      fixed.push_back(std::make_unique<OrthoView>(window, patient, region, plane));
+      fixed.push_back(std::make_unique<OrthoView>(window, patient, region, plane, layout.inside));
       fixed.back()->addTrail(trail);
     }
   }
@@ -99,7 +99,7 @@ void SceneView::Impl::place() {
   const int* now = window.GetSize();
   if (size[0] == now[0] && size[1] == now[1]) return;
   size = {now[0], now[1]};
-  panels = layoutPanels(size[0], size[1], layout.orthographic);
+  panels = layoutPanels(size[0], size[1], layout.fixed_views);
   ar.place(panels.ar, size[0], size[1]);
   const Rgb& dark = colour::kPanel;
   margins.clear();
@@ -109,13 +109,16 @@ void SceneView::Impl::place() {
   paintStills();
 }
 
+/// Where one is shown at a time they lie over each other, and each is painted alone.
 void SceneView::Impl::paintStills() {
-  if (fixed.empty()) return;
-  for (const auto& view : fixed) view->prepareStill();
   words->DrawOff();
-  window.Render();
-  const Image picture = pixelsOf(window);
-  for (const auto& view : fixed) view->keepStill(picture);
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    for (std::size_t other = 0; other < fixed.size(); ++other) fixed[other]->setDrawn(other == i);
+    fixed[i]->prepareStill();
+    window.Render();
+    fixed[i]->keepStill(pixelsOf(window));
+  }
+  for (const auto& view : fixed) view->setDrawn(true);
   words->DrawOn();
 }
 
@@ -123,7 +126,11 @@ void SceneView::Impl::show(const SceneState& state) {
   place();
   trail.update(state.trail_A);
   ar.update(state);
-  for (const auto& view : fixed) view->update(state);
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    fixed[i]->setDrawn(layout.fixed_views == FixedViews::three ||
+                       i == static_cast<std::size_t>(state.fixed_view));
+    fixed[i]->update(state);
+  }
   Rect free = panels.ar;
   if (state.hud.timeline) free.y += stripHeight_px(size[1]) + textSize_px(size[1]) / 2;
   if (inset) inset->show(state.beside ? state.beside : state.picture, free, size[0], size[1]);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "anatomy/patient.h"
+#include "scene/panels.h"
 #include "scene/scene_state.h"
 #include "scene/window/gl_context.h"
 #include "scene/window/pixels.h"
@@ -24,7 +25,8 @@ struct ViewInput {
 
 struct ViewLayout {
   int width = 1280, height = 720;
-  bool orthographic = true;     ///< three fixed views (front, side, top) beside the AR view
+  FixedViews fixed_views = FixedViews::three;
+  bool inside = true;           ///< what lies under the skin is drawn
   bool free_navigation = true;  ///< drag the virtual camera; a protocol can switch it off
   /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must
   /// not replace feeling.
@@ -45,7 +47,7 @@ struct ArGeometry {
 };
 
 /// The window: AR view (picture, registered patient, needle with syringe, force arrows, legend,
-/// HUD) beside three fixed orthographic views. The context must outlive it; one thread only.
+/// HUD) beside fixed orthographic views. The context must outlive it; one thread only.
 class SceneView {
  public:
   SceneView(GlContextProvider& context, const anatomy::Patient& patient, const ViewLayout& layout);

@@ -100,6 +100,7 @@ Layers platformLayers() {
   return {
       {.folder = "apps/os", .sealed = true},
       {.folder = "apps/training", .libraries = {"JSON"}, .sealed = true},
+      {.folder = "apps/presentation", .libraries = {"JSON"}, .sealed = true},
       {.folder = "apps/runtime",
        .ours = {"anatomy", "haptics", "calibration", "ar", "apps/os"},
        .never = {"apps/twin"},
@@ -174,12 +175,12 @@ Layers judgementLayers() {
 Layers trialLayers() {
   return {
       {.folder = "apps/trial",
-       .ours = librariesAnd({"apps/training", "apps/runtime", "apps/station"}),
+       .ours = librariesAnd({"apps/training", "apps/presentation", "apps/runtime", "apps/station"}),
        .never = {"apps/twin"},
        .libraries = {"Eigen", "OpenCV", "JSON"}},
       {.folder = "apps/task_*",
-       .ours = librariesAnd(
-           {"apps/training", "apps/trial", "apps/runtime", "apps/assess", "apps/station"}),
+       .ours = librariesAnd({"apps/training", "apps/presentation", "apps/trial", "apps/runtime",
+                             "apps/assess", "apps/station"}),
        .never = {"apps/record", "apps/report", "apps/twin"},
        .libraries = {"Eigen", "OpenCV", "JSON"}},
       {.folder = "apps/replay",

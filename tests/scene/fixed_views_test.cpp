@@ -73,7 +73,7 @@ TEST_F(FixedViews, FollowTheSizeOfTheWindow) {
 TEST(Layout, PanelsTileTheWindowWithoutOverlap) {
   for (const auto& [width, height] :
        {std::pair(1280, 720), std::pair(640, 480), std::pair(333, 201)}) {
-    const Panels panels = layoutPanels(width, height, true);
+    const Panels panels = layoutPanels(width, height, FixedViews::three);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         int owners = 0;

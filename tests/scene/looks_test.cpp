@@ -106,7 +106,7 @@ std::vector<Look> looks() {
        })},
       {"words", with([](SceneState& s) {
          s.hud = {"phase 2: advance to the vein",
-                  "12 mm under the skin, in fat",
+                  "12 mm inserted, in fat",
                   "1.2 N",
                   "0:31",
                   "clavicle",

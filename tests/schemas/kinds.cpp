@@ -7,6 +7,7 @@
 #include "anatomy/parametric/population.h"
 #include "anatomy/volume/seed_file.h"
 #include "apps/assess/competence/form.h"
+#include "apps/presentation/presentation.h"
 #include "apps/station/material_files.h"
 #include "apps/station/station_file.h"
 #include "apps/study/analysis/study_design.h"
@@ -303,6 +304,13 @@ std::vector<Kind> studyKinds() {
        // Conditions are asked for by name, none in vain; tasks and questionnaires must exist; a
        // rest has a length; blocks of an allocation can be balanced.
        .stricter = {"/conditions.*", " without allocation", "/allocation/.*", "/sessions.*"},
+       .forgiving = {},
+       .elsewhere = {}},
+      {.name = "presentation",
+       .samples = {{"presentations/pilot.json", json::object()},
+                   {"presentations/practice.json", json::object()}},
+       .read = [](const fs::path& file) { presentation::readPresentation(file); },
+       .stricter = {},
        .forgiving = {},
        .elsewhere = {}},
       {.name = "questionnaire",

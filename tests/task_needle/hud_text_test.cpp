@@ -1,5 +1,4 @@
 #include "apps/task_needle/needle_scene.h"
-#include "apps/training/trial_words.h"
 
 #include <gtest/gtest.h>
 
@@ -76,36 +75,17 @@ TEST(HudText, CallsThingsByTheTasksWords) {
   tool.phase = haptics::NeedlePhase::inserted;
   tool.tissue = Tissue::fat;
   tool.depth = 0.0093;
-  EXPECT_EQ(hudText(status, tool, "", "").depth, "9 mm under the skin, in fat");
+  EXPECT_EQ(hudText(status, tool, "", "").depth, "9 mm inserted, in fat");
   TaskWords words;
   words.tissue[static_cast<std::size_t>(Tissue::fat)] = "cancellous bone";
   words.organ[static_cast<std::size_t>(Organ::skin)] = "bone";
   const scene::Hud hud = hudText(status, tool, "", "", words);
-  EXPECT_EQ(hud.depth, "9 mm under the bone, in cancellous bone");
+  EXPECT_EQ(hud.depth, "9 mm inserted, in cancellous bone");
+  tool.tissue = Tissue::bone;
+  EXPECT_EQ(hudText(status, tool, "", "").depth, "9 mm inserted, at bone");
+  tool.phase = haptics::NeedlePhase::outside;
+  EXPECT_EQ(hudText(status, tool, "", "", words).depth, "outside the bone");
   EXPECT_EQ(hud.phase, "seated");
-}
-
-TEST(HudText, AssessmentTellsOnlyWhatAPatientWould) {
-  TaskStatus status;
-  status.state = trial::TrialState::running;
-  status.trial = status.trials = 1;
-  status.step = "phase 2: advance to the vein";
-  status.role = training::Role::scored;
-  runtime::ToolState tool;
-  tool.phase = haptics::NeedlePhase::inserted;
-  tool.tissue = Tissue::lung;
-  tool.depth = 0.03;
-  const scene::Hud practice = hudText(status, tool, "", "");
-  EXPECT_TRUE(practice.alarm);
-  EXPECT_EQ(practice.touched, "LUNG");
-  status.role = training::Role::assessed;
-  status.blood_flows = true;
-  const scene::Hud exam = hudText(status, tool, "", "");
-  EXPECT_FALSE(exam.alarm);
-  for (const std::string& text : {exam.phase, exam.depth, exam.force, exam.touched})
-    EXPECT_EQ(text, "");
-  EXPECT_EQ(exam.time, "0:00");
-  EXPECT_EQ(exam.notice, "Blood flows into the syringe");
 }
 
 }  // namespace
