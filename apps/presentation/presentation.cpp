@@ -1,7 +1,7 @@
 #include "apps/presentation/presentation.h"
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 

@@ -90,9 +90,9 @@ void HudPainter::build() {
   plates_.clear();
   buildMark();
   buildPhase();
-  buildReadings();
   buildTimeline();
   buildLegend();
+  buildReadings();
   buildNotice();
   for (std::size_t i = used_; i < labels_.size(); ++i) labels_[i]->hide();
 }
@@ -163,8 +163,9 @@ void HudPainter::buildReadings() {
   }
   const int pad = text_ * 2 / 3, line = lineHeight(bright) * 11 / 10;
   const int height = static_cast<int>(rows.size()) * line + pad;
-  const Rect frame{content_->panel.x + margin_, below_ - height, names + values + 3 * pad, height};
+  const Rect frame{content_->panel.x + margin_, above_, names + values + 3 * pad, height};
   plates_.add(frame, colour::kPlate, pad / 2);
+  above_ = frame.top() + margin_;
   int y = frame.top() - pad / 2 - line / 2;
   for (const Row& row : rows) {
     write(row.name, dim, frame.x + pad, y, Align::left);

@@ -17,9 +17,9 @@ int textSize_px(int window_height);
 /// What the strip of a replay takes of the view's lower edge, without its margin.
 int stripHeight_px(int window_height);
 
-/// Words over the AR view: phase and readings at the top left, the mark at the top right, the
-/// legend of the force arrows at the bottom left, the notice at the bottom centre; of a replay a
-/// strip below them.
+/// Words over the AR view: the phase at the top left, the mark at the top right; readings at the
+/// bottom left, where no syringe is held, over the legend of the force arrows; the notice at the
+/// bottom centre; of a replay a strip below them.
 class HudPainter {
  public:
   explicit HudPainter(

@@ -26,7 +26,6 @@ struct ViewInput {
 struct ViewLayout {
   int width = 1280, height = 720;
   FixedViews fixed_views = FixedViews::three;
-  bool inside = true;           ///< what lies under the skin is drawn
   bool free_navigation = true;  ///< drag the virtual camera; a protocol can switch it off
   /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must
   /// not replace feeling.
@@ -36,6 +35,7 @@ struct ViewLayout {
   Inset inset = Inset::none;
   /// What is not drawn is black and clear (alpha 0): for displays that one looks through
   bool see_through = false;
+  bool inside = true;  ///< what lies under the skin is drawn
 };
 
 /// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left:

@@ -19,7 +19,7 @@ anatomy::Patient ballBehindSkin(bool with_ball) {
 class ArFrame : public testing::Test {
  protected:
   Image frameOf(const anatomy::Patient& patient, const SceneState& state) {
-    SceneView view(offscreen(), patient, {320, 240, false, true});
+    SceneView view(offscreen(), patient, {320, 240, FixedViews::none, true});
     view.show(state);
     return view.capture();
   }
@@ -147,7 +147,7 @@ TEST_F(HeldTool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
   const Image without = frameOf(nobody_, state);
   const Vec3 f_A = 1.5 * Vec3(-0.6, 0, 0.8);
   state.forces = {{ForceKind::reaction, Vec3(0.01, 0, -0.02), f_A}};
-  SceneView view(offscreen(), nobody_, {320, 240, false, true});
+  SceneView view(offscreen(), nobody_, {320, 240, FixedViews::none, true});
   view.show(state);
   const Image with = view.capture();
   const Eigen::Vector2d base = project(state.camera, state.X_CA * state.forces[0].p_A);

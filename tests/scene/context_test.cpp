@@ -12,7 +12,7 @@ TEST(GlContext, OffscreenNeedsNoDisplayAndHearsNobody) {
   EXPECT_FALSE(offscreen().interactive());
   EXPECT_NE(std::string(offscreen().describe()).find("EGL"), std::string::npos);
   const auto patient = test::simplePatient();
-  SceneView view(offscreen(), patient, {320, 240, true, true});
+  SceneView view(offscreen(), patient, {320, 240, FixedViews::three, true});
   const ViewInput input = view.poll();
   EXPECT_FALSE(input.closed);
   EXPECT_TRUE(input.keys.empty());
@@ -38,12 +38,12 @@ TEST(GlContext, TwoOffscreenContextsDoNotDisturbEachOther) {
   const auto other = makeGlContext(Display::offscreen, 320, 240, "other");
   const auto patient = test::simplePatient();
   const auto ball = test::spherePatient({0, 0, 0}, 0.02);
-  SceneView a(offscreen(), patient, {320, 240, true, true});
+  SceneView a(offscreen(), patient, {320, 240, FixedViews::three, true});
   SceneState state;
   state.show_tool = false;
   a.show(state);
   const Image before = a.capture();
-  SceneView b(*other, ball, {320, 240, true, true});
+  SceneView b(*other, ball, {320, 240, FixedViews::three, true});
   b.show(state);
   EXPECT_GT(changed(before, b.capture()).count, 1000);
   a.show(state);
@@ -52,7 +52,7 @@ TEST(GlContext, TwoOffscreenContextsDoNotDisturbEachOther) {
 
 TEST(SceneView, PatientWithoutOrgansOrLandmarksIsDrawnAsNothing) {
   const anatomy::Patient nobody;
-  SceneView view(offscreen(), nobody, {320, 240, true, true});
+  SceneView view(offscreen(), nobody, {320, 240, FixedViews::three, true});
   view.show({});
   EXPECT_EQ(view.capture().pixels.size(), 320u * 240u * 3u);
 }

@@ -40,7 +40,7 @@ class Search : public testing::Test {
   }
   const Image picture_ = plain(320, 240, 128);
   SceneState state_ = straightOn(picture_);
-  SceneView view_{offscreen(), block(), {320, 240, false, true}};
+  SceneView view_{offscreen(), block(), {320, 240, FixedViews::none, true}};
 };
 
 double brightness(const Pixel& p) { return 0.2126 * p.r + 0.7152 * p.g + 0.0722 * p.b; }
@@ -240,7 +240,7 @@ TEST_F(Search, TheLeadIsARingOnTheSurface) {
 }
 
 TEST(SearchInFixedViews, FromAboveTheFarSideIsUpAndFromTheSideTheTopIs) {
-  SceneView view(offscreen(), block(), {900, 600, true, true});
+  SceneView view(offscreen(), block(), {900, 600, FixedViews::three, true});
   SceneState state;
   state.show_tool = false;
   const auto frame = [&] { return (view.show(state), view.capture()); };
@@ -283,7 +283,7 @@ TEST(SearchInFixedViews, ShowAllOfABlock) {
   EXPECT_FALSE(torso.only_skin);
   EXPECT_FALSE(torso.on_table);
   EXPECT_EQ(torso.height, 0);
-  SceneView view(offscreen(), block(), {900, 600, true, true});
+  SceneView view(offscreen(), block(), {900, 600, FixedViews::three, true});
   SceneState state;
   state.show_tool = false;
   view.show(state);
@@ -302,7 +302,7 @@ TEST(SearchInFixedViews, ShowAllOfABlock) {
 
 /// Both eyes of a stereo view see the carpet and what lies under it.
 TEST(SearchInStereo, BothEyesSeeIt) {
-  ViewLayout layout{640, 240, false, true};
+  ViewLayout layout{640, 240, FixedViews::none, true};
   layout.stereo = Stereo::side_by_side;
   SceneView view(offscreen(), block(), layout);
   SceneState state;

@@ -25,7 +25,7 @@ class FixedViews : public testing::Test {
     });
   }
   const anatomy::Patient patient_ = test::simplePatient();
-  SceneView view_{offscreen(), patient_, {900, 600, true, true}};
+  SceneView view_{offscreen(), patient_, {900, 600, FixedViews::three, true}};
   SceneState state_;
   const Vec3 tip_A_{-0.05, 0.01, -0.01};
 };

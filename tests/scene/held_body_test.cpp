@@ -27,7 +27,7 @@ class HeldBody : public testing::Test {
   const anatomy::Patient block_ = anatomy::phantomBlock({0.02, 0.02, 0.02}, "thing");
   const Image picture_ = plain(320, 240, kBackground);
   SceneState state_ = straightOn(picture_);
-  SceneView view_{offscreen(), block_, {320, 240, false, true}};
+  SceneView view_{offscreen(), block_, {320, 240, FixedViews::none, true}};
 };
 
 TEST_F(HeldBody, IsDrawnWhereItIsHeld) {

@@ -43,7 +43,7 @@ struct Look {
   const char* name;
   SceneState state;
   anatomy::Side side = anatomy::Side::right;
-  ViewLayout layout{kLook_px, kLook_px, false, true};
+  ViewLayout layout{kLook_px, kLook_px, FixedViews::none, true};
   double threshold = 0.97;
 };
 
@@ -77,7 +77,8 @@ std::vector<Look> looks() {
                 {ForceKind::weight, tip + Vec3(0, 0, 0.06), {0, 0, -0.8}},
                 {ForceKind::device, tip + Vec3(-0.07, 0, 0), {-0.2, 1.4, 0.2}}};
   };
-  ViewLayout safe{kLook_px, kLook_px, false, true}, all{3 * kLook_px, 2 * kLook_px, true, true};
+  ViewLayout safe{kLook_px, kLook_px, FixedViews::none, true},
+      all{3 * kLook_px, 2 * kLook_px, FixedViews::three, true};
   safe.force_colours = ForceColours::safe;
   return {
       {"skin-translucent", registered()},
@@ -159,7 +160,8 @@ TEST(Looks, ContactSheetLikeItsBaseline) {
 
 /// The comparison sees what a person would see.
 TEST(PictureMatch, AMissingNeedleIsSeenANoisyPixelIsNot) {
-  SceneView view(offscreen(), patientOf(anatomy::Side::right), {kLook_px, kLook_px, false, true});
+  SceneView view(offscreen(), patientOf(anatomy::Side::right),
+                 {kLook_px, kLook_px, FixedViews::none, true});
   SceneState state = registered();
   view.show(state);
   const cv::Mat whole = toBgr(view.capture());

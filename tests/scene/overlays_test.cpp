@@ -18,7 +18,7 @@ SceneState before(const Image& picture) {
 
 Image frameOf(const anatomy::Patient& patient, const SceneState& state,
               ForceColours colours = ForceColours::paper) {
-  ViewLayout layout{320, 240, false, true};
+  ViewLayout layout{320, 240, FixedViews::none, true};
   layout.force_colours = colours;
   SceneView view(offscreen(), patient, layout);
   view.show(state);
@@ -60,7 +60,7 @@ TEST(Inset, ShowsThePictureWithoutTheOverlay) {
     for (int u = 160; u < 320; ++u)
       picture.pixels[3 * (static_cast<std::size_t>(v) * 320 + u)] = 200;  // its right half is red
   const auto shown = [&](Inset inset, const Image* seen) {
-    ViewLayout layout{640, 480, false, true};
+    ViewLayout layout{640, 480, FixedViews::none, true};
     layout.inset = inset;
     SceneState state = before(picture);
     state.picture = seen;

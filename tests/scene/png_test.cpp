@@ -37,7 +37,7 @@ Image readPng(const fs::path& file) {
 
 TEST_F(Png, CapturedFrameComesBackFromTheFileUnchanged) {
   const auto patient = test::simplePatient();
-  SceneView view(offscreen(), patient, {320, 240, true, true});
+  SceneView view(offscreen(), patient, {320, 240, FixedViews::three, true});
   view.show({});
   const Image frame = view.capture();
   const fs::path file = folder_ / "frame.png";

@@ -34,7 +34,7 @@ TEST_P(Projection, SphereLiesWhereThePinholeSaysToATenthOfAPixel) {
   const double radius = 0.012;
   const Case& c = GetParam();
   const auto patient = test::spherePatient(c.p_A, radius);
-  SceneView view(offscreen(), patient, {c.width, c.height, false, true});
+  SceneView view(offscreen(), patient, {c.width, c.height, FixedViews::none, true});
   const Image dark = plain(640, 480, 0);
   SceneState state;
   state.picture = &dark;
@@ -81,7 +81,7 @@ TEST(Picture, FillsTheViewPixelForPixelUprightAndUnchanged) {
     }
   }
   const auto patient = test::simplePatient();
-  SceneView view(offscreen(), patient, {640, 480, false, true});
+  SceneView view(offscreen(), patient, {640, 480, FixedViews::none, true});
   SceneState state;  // not registered: the picture alone, no patient on it
   state.picture = &picture;
   view.show(state);
@@ -90,7 +90,7 @@ TEST(Picture, FillsTheViewPixelForPixelUprightAndUnchanged) {
 
 TEST(Picture, WithTheWrongNumberOfBytesIsRefused) {
   const auto patient = test::simplePatient();
-  SceneView view(offscreen(), patient, {320, 240, false, true});
+  SceneView view(offscreen(), patient, {320, 240, FixedViews::none, true});
   Image picture = plain(64, 48, 0);
   picture.pixels.pop_back();
   SceneState state;

@@ -40,7 +40,7 @@ void expectTrueEyes(Stereo layout_of_eyes) {
   const double radius = 0.012;
   const Vec3 p_A(0.03, 0.02, -0.03);
   const auto patient = test::spherePatient(p_A, radius);
-  ViewLayout layout{640, 480, false, true};
+  ViewLayout layout{640, 480, FixedViews::none, true};
   layout.stereo = layout_of_eyes;
   if (layout_of_eyes != Stereo::top_bottom) layout.width *= 2;
   if (layout_of_eyes == Stereo::top_bottom) layout.height *= 2;
@@ -88,7 +88,7 @@ TEST(Stereo, EachEyeSeesATenthOfAPixelTrueOnTheHead) { expectTrueEyes(Stereo::he
 TEST(Stereo, AnAnaglyphHasTheLeftEyeInRedAndTheRightInCyan) {
   const Vec3 p_A(0, -0.05, 0);
   const auto patient = test::spherePatient(p_A, 0.02);
-  ViewLayout layout{640, 480, false, true};
+  ViewLayout layout{640, 480, FixedViews::none, true};
   layout.stereo = Stereo::anaglyph;
   SceneView view(offscreen(), patient, layout);
   const Image dark = plain(640, 480, 0);
@@ -107,7 +107,7 @@ TEST(Stereo, AnAnaglyphHasTheLeftEyeInRedAndTheRightInCyan) {
 
 TEST(Stereo, WithoutARealCameraTheVirtualOneHasTwoEyes) {
   const auto patient = test::simplePatient();
-  ViewLayout layout{640, 240, false, true};
+  ViewLayout layout{640, 240, FixedViews::none, true};
   layout.stereo = Stereo::side_by_side;
   SceneView view(offscreen(), patient, layout);
   SceneState state;

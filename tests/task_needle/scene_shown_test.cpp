@@ -101,7 +101,8 @@ INSTANTIATE_TEST_SUITE_P(Of, NothingReplacesFeeling, testing::Values("assessed",
                          [](const auto& of) { return std::string(of.param); });
 
 TEST(SceneShown, SubstitutionShowsTheForceAndNothingElse) {
-  const scene::SceneState seen = sceneIn(shipped("substitution")), pilot = sceneIn(shipped("pilot"));
+  const scene::SceneState seen = sceneIn(shipped("substitution")),
+                          pilot = sceneIn(shipped("pilot"));
   EXPECT_EQ(seen.forces.size(), 2u);
   EXPECT_EQ(seen.hud.force, "2.0 N (force feedback off)");
   scene::Hud rest = seen.hud;
