@@ -4,7 +4,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/units.h"
-#include "apps/assess/needle/teaching_line.h"
+#include "apps/assess/needle/assess_trial.h"
 #include "apps/calibrate/subtask_page.h"
 #include "apps/cli/commands.h"
 #include "apps/evidence/recorded_session.h"

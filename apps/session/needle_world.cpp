@@ -13,7 +13,7 @@
 #include "anatomy/parametric/phantoms.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
-#include "apps/assess/needle/teaching_line.h"
+#include "apps/assess/needle/assess_trial.h"
 #include "apps/session/kept_patient.h"
 #include "apps/session/output_folder.h"
 #include "apps/station/assets.h"

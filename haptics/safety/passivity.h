@@ -35,6 +35,7 @@ struct PassivityState {
   Packed3 f_last_D{};  ///< of the port, held since the last tick
   Packed3 p_last_D{};
   double energy_J = 0;         ///< negative: made by us
+  double reserved_J = 0;       ///< recorded states keep their places
   Packed3 added_D{};           ///< damping force, held until the next reading
   double since_s = 0;          ///< since the last new reading
   std::uint64_t sequence = 0;  ///< of that reading, as the tick counts them

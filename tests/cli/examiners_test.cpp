@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
               {{"pressures_N", nlohmann::json::array({0.16})}},
               "too little felt deeply"},
         Cheat{"SearchesOnlyHalf", {{"area_share", 0.5}}, "too little of the area felt"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& of) { return of.param.name; });
 
 TEST(Examiner, WhoFindsThemPasses) {
   const Folder here;

@@ -6,7 +6,7 @@
 
 #include "anatomy/parametric/parametric_patient.h"
 #include "apps/assess/competence/verdict.h"
-#include "apps/assess/needle/teaching_line.h"
+#include "apps/assess/needle/assess_trial.h"
 #include "tests/support/files.h"
 #include "tests/support/scripted_trial.h"
 

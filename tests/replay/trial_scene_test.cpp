@@ -40,7 +40,8 @@ class WhatIsDrawn : public testing::Test {
   Channels channels_;
   const std::unique_ptr<scene::GlContextProvider> context_ =
       scene::makeGlContext(scene::Display::offscreen, 160, 120, "test");
-  scene::SceneView view_{*context_, test::simplePatient(), {160, 120, scene::FixedViews::none, true}};
+  scene::SceneView view_{
+      *context_, test::simplePatient(), {160, 120, scene::FixedViews::none, true}};
   const scene::Image before_ = view_.capture();
 };
 

@@ -218,7 +218,8 @@ TEST(PalpationCsv, HasAColumnForEachFigure) {
   EXPECT_FALSE(std::getline(lines, rest));
   EXPECT_EQ(header,
             "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,LUMPS,FOUND,MISSED,FALSE_ALARMS,REPEATED,"
-            "CLEAR_QUADRANTS,WRONG_QUADRANTS,COVERAGE_LIGHT,COVERAGE_MEDIUM,COVERAGE_DEEP,TWICE,"
+            "CLEAR_QUADRANTS,WRONG_QUADRANTS,ILL_QUADRANTS,HIT_QUADRANTS,COVERAGE_LIGHT,COVERAGE_"
+            "MEDIUM,COVERAGE_DEEP,TWICE,"
             "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,"
             "GUIDED,ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,AT_STANDARD,AUGMENTED");
   const Columns names = split(header), values = split(row);
@@ -244,8 +245,9 @@ TEST(PalpationCsv, QuotesNamesAndLeavesEmptyWhatWasNotMeasured) {
   nothing.passed = true;
   writePalpationCsv("a,\"b\"", {nothing}, folder / "trials.csv");
   const std::string csv = slurp(folder / "trials.csv"), row = csv.substr(csv.find('\n') + 1);
-  EXPECT_EQ(row,
-            "\"a,\"\"b\"\"\",0,1,0,1,,0,0,0,0,0,0,0,0,0,0,0,no pattern,0,0,0,0,0,,0,0,0,,,1,0\n");
+  EXPECT_EQ(
+      row,
+      "\"a,\"\"b\"\"\",0,1,0,1,,0,0,0,0,0,0,0,0,0,0,0,0,0,no pattern,0,0,0,0,0,,0,0,0,,,1,0\n");
   EXPECT_THROW(writePalpationCsv("P", {}, folder / "missing" / "trials.csv"), Error);
 }
 

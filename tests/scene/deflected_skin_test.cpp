@@ -92,7 +92,7 @@ class DeflectedFrame : public testing::Test {
 };
 
 TEST_F(DeflectedFrame, ShowsTheDimpleWhereItIsAndThenNoMore) {
-  SceneView view(offscreen(), patient_, {320, 240, false, FixedViews::three, true});
+  SceneView view(offscreen(), patient_, {320, 240, FixedViews::none, true, true});
   const Image before = frame(view, std::nullopt), pressed = frame(view, pushAt(0, 0.004));
   const Blob dimple = changed(before, pressed);
   EXPECT_GT(dimple.count, 200);

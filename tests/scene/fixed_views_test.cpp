@@ -7,7 +7,7 @@
 namespace palpa::scene {
 namespace {
 
-class FixedViews : public testing::Test {
+class FixedViewsBeside : public testing::Test {
  protected:
   enum Panel { front, side, top };
   Image frameAt(const Vec3& tip_A, bool shown = true) {
@@ -30,7 +30,7 @@ class FixedViews : public testing::Test {
   const Vec3 tip_A_{-0.05, 0.01, -0.01};
 };
 
-TEST_F(FixedViews, EachShowsMotionInItsPlaneAndNotAcrossIt) {
+TEST_F(FixedViewsBeside, EachShowsMotionInItsPlaneAndNotAcrossIt) {
   const double step = 0.010;
   const auto motion = [&](Panel panel, const Vec3& d_A) {
     const Blob a = needle(panel, tip_A_), b = needle(panel, tip_A_ + d_A);
@@ -48,7 +48,7 @@ TEST_F(FixedViews, EachShowsMotionInItsPlaneAndNotAcrossIt) {
   EXPECT_EQ(motion(top, up), Eigen::Vector2i(0, 0));
 }
 
-TEST_F(FixedViews, ShowTheAnatomyInItsColours) {
+TEST_F(FixedViewsBeside, ShowTheAnatomyInItsColours) {
   const Image frame = frameAt(tip_A_, false);
   const auto count = [&](auto chosen) {
     return blobOf(frame, [&](int u, int v) { return u > 0.7 * 900 && chosen(at(frame, u, v)); })
@@ -58,7 +58,7 @@ TEST_F(FixedViews, ShowTheAnatomyInItsColours) {
   EXPECT_GT(count([](const Pixel& p) { return p.r > p.b + 100; }), 300);  // artery
 }
 
-TEST_F(FixedViews, FollowTheSizeOfTheWindow) {
+TEST_F(FixedViewsBeside, FollowTheSizeOfTheWindow) {
   frameAt(tip_A_);
   offscreen().window()->SetSize(700, 500);
   const Image small = frameAt(tip_A_, false);
@@ -68,6 +68,48 @@ TEST_F(FixedViews, FollowTheSizeOfTheWindow) {
     return u > 0.7 * 700 && at(small, u, v).b > at(small, u, v).r + 60;
   });
   EXPECT_GT(vein.count, 150);
+}
+
+/// One at a time: each has the right half to itself, and shows the needle in its own plane.
+TEST(FixedViewAtATime, IsTheOneThatWasChosen) {
+  const anatomy::Patient patient = test::simplePatient();
+  SceneView view(offscreen(), patient, {800, 400, FixedViews::one, true});
+  SceneState state;
+  std::vector<Image> frames;
+  for (state.fixed_view = 0; state.fixed_view < kFixedViews; ++state.fixed_view) {
+    view.show(state);
+    frames.push_back(view.capture());
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Blob other = changed(frames[i], frames[(i + 1) % frames.size()]);
+    EXPECT_GT(other.count, 1000) << i;
+    EXPECT_GT(other.left, 0.49 * 800) << i;
+    const Blob vein = blobOf(frames[i], [&](int u, int v) {
+      return u > 0.5 * 800 && at(frames[i], u, v).b > at(frames[i], u, v).r + 60;
+    });
+    EXPECT_GT(vein.count, 300) << i;
+  }
+}
+
+/// Without what lies inside neither the fixed views nor the picture show a vessel, however the skin
+/// looks.
+TEST(NothingInside, IsShown) {
+  const anatomy::Patient patient = test::simplePatient();
+  for (const SkinStyle skin : {SkinStyle::solid, SkinStyle::translucent, SkinStyle::hidden}) {
+    ViewLayout layout{900, 600, FixedViews::three, true};
+    layout.inside = false;
+    SceneView view(offscreen(), patient, layout);
+    SceneState state;
+    state.skin = skin;
+    state.show_tool = false;
+    view.show(state);
+    const Image frame = view.capture();
+    const Blob vessel = blobOf(frame, [&](int u, int v) {
+      const Pixel p = at(frame, u, v);
+      return p.b > p.r + 60 || p.r > p.b + 130;
+    });
+    EXPECT_EQ(vessel.count, 0) << static_cast<int>(skin);
+  }
 }
 
 TEST(Layout, PanelsTileTheWindowWithoutOverlap) {

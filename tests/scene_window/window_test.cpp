@@ -61,7 +61,7 @@ GlContextProvider* Window::context_ = nullptr;
 TEST_F(Window, OpensAndShowsTheScene) {
   EXPECT_TRUE(context_->interactive());
   EXPECT_STREQ(context_->describe(), "X11 window");
-  SceneView view(*context_, patient_, {640, 480, true, true});
+  SceneView view(*context_, patient_, {640, 480, FixedViews::three, true});
   SceneState state;
   state.hud.phase = "Phase 1: puncture the skin";
   view.show(state);
@@ -75,7 +75,7 @@ TEST_F(Window, OpensAndShowsTheScene) {
 }
 
 TEST_F(Window, HearsMouseKeysAndWheelAndNoKeyEndsTheProgram) {
-  SceneView view(*context_, patient_, {640, 480, true, true});
+  SceneView view(*context_, patient_, {640, 480, FixedViews::three, true});
   view.show({});
   ASSERT_TRUE(person("mousemove 123 45"));
   const ViewInput moved = pollUntil(view, [](const ViewInput& i) { return i.mouse_x == 123; });
@@ -101,7 +101,7 @@ TEST_F(Window, HearsMouseKeysAndWheelAndNoKeyEndsTheProgram) {
 
 TEST_F(Window, MiddleDragWalksTheVirtualCameraUnlessAProtocolForbidsIt) {
   for (const bool free : {true, false}) {
-    SceneView view(*context_, patient_, {640, 480, true, free});
+    SceneView view(*context_, patient_, {640, 480, FixedViews::three, free});
     view.show({});
     const Pose before = view.arGeometry().X_CA;
     const auto at = [&](int x, int y) {
@@ -126,7 +126,7 @@ TEST_F(Window, OffscreenInTheSameProcessStaysWithX11) {
   const auto other = makeGlContext(Display::offscreen, 320, 240, "");
   EXPECT_FALSE(other->interactive());
   EXPECT_STREQ(other->describe(), "offscreen X11");
-  SceneView view(*other, patient_, {320, 240, true, true});
+  SceneView view(*other, patient_, {320, 240, FixedViews::three, true});
   view.show({});
   EXPECT_EQ(view.capture().width, 320);
 }
@@ -156,7 +156,7 @@ void askToClose() {
 }
 
 TEST_F(Window, CloseButtonIsReportedAndTheSceneCanStillFinish) {
-  SceneView view(*context_, patient_, {640, 480, true, true});
+  SceneView view(*context_, patient_, {640, 480, FixedViews::three, true});
   view.show({});
   EXPECT_FALSE(view.poll().closed);
   askToClose();

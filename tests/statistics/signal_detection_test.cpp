@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/assess/statistics/signal_detection.h"
+#include "apps/assess/statistics/sample.h"
 
 namespace palpa::statistics {
 namespace {

@@ -8,6 +8,7 @@
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/training/trial_words.h"
 #include "calibration/expert_path.h"
+#include "calibration/teaching_line.h"
 
 namespace palpa::assess {
 
@@ -45,6 +46,11 @@ struct TrialFacts {
   std::uint64_t seed = 0;
   training::Outcome outcome = training::Outcome::none;
 };
+
+/// The patient's own teaching line: from the entry point, along the skin's normal there, to the
+/// vein's target, as its landmarks and its skin say. Throws Error where one of them is missing.
+calibration::TeachingLine teachingLineOf(const anatomy::Patient& patient,
+                                         const anatomy::SurfaceQuery& query);
 
 /// The score of one trial with its reasons. Reads the record only: `samples` are all ticks of the
 /// trial in A (1 kHz or any rate), nothing of the simulation's truth.

@@ -7,7 +7,7 @@
 
 #include "apps/assess/metrics/metric_table.h"
 #include "apps/assess/palpation/palpation_score.h"
-#include "apps/assess/statistics/signal_detection.h"
+#include "apps/assess/statistics/sample.h"
 #include "apps/assess/trial.h"
 #include "apps/training/trial_words.h"
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include <boost/math/distributions/normal.hpp>
+
 #include "anatomy/base/error.h"
 
 namespace palpa::statistics {
@@ -79,6 +81,20 @@ Ranks ranksOf(const std::vector<double>& values) {
     ranks.ties += t * t * t - t;
   }
   return ranks;
+}
+
+namespace {
+
+double zOf(int called, int of) {
+  return boost::math::quantile(boost::math::normal(), (called + 0.5) / (of + 1.0));
+}
+
+}  // namespace
+
+Discrimination discriminationOf(const Detections& seen) {
+  if (seen.signals <= 0 || seen.rest <= 0) return {};
+  const double hits = zOf(seen.hits, seen.signals), alarms = zOf(seen.alarms, seen.rest);
+  return {hits - alarms, -(hits + alarms) / 2};
 }
 
 }  // namespace palpa::statistics
