@@ -134,6 +134,10 @@ ExpertPath parseExpertPath(std::string_view text, const std::string& where) {
 }
 
 void writeExpertPath(const ExpertPath& path, const std::filesystem::path& file) {
+  if (path.axes != PathAxes::own_line)
+    throw Error(
+        "the path is about landmarks, as in files of version 1; those are read, not written",
+        file.string(), kRemedy);
   if (!allFinite(path))
     throw Error("the path holds a value that is not a number", file.string(), kRemedy);
   writeWhole(file, toJson(path).dump(2) + "\n");

@@ -6,8 +6,10 @@
 
 #include "anatomy/base/error.h"
 #include "apps/os/file_access.h"
+#include "apps/presentation/presentation.h"
 #include "apps/record/store/record_store.h"
 #include "apps/record/store/sql_connection.h"
+#include "apps/station/assets.h"
 
 namespace palpa::cli {
 namespace {
@@ -111,13 +113,6 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
   command.add_flag("--assess", o.assess,
                    "Assessment: every aid is off, as in an examination; a needle trial ends at "
                    "the fourth pass");
-  command
-      .add_option(
-          "--presentation", o.presentation,
-          "What may be seen: practice, assessed, pilot, substitution, or a file like those "
-          "in assets/presentations. Default: practice; without force feedback practice that "
-          "does not show the force either; assessed with --assess")
-      ->type_name("NAME|FILE");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")
       ->type_name("DIR");
   command
@@ -170,6 +165,17 @@ void addRunArguments(CLI::App& command, session::SessionOptions& o) {
           "encryption")
       ->type_name("ADDRESS")
       ->needs(igtl);
+  command
+      .add_option_function<std::string>(
+          "--presentation",
+          [&o](const std::string& text) {
+            o.presentation = presentation::presentationNamed(
+                text, station::assetFile("presentations"), "", "--presentation");
+          },
+          "What may be seen: practice, assessed, pilot, substitution, or a file like those in "
+          "assets/presentations. Default: practice; without force feedback practice that does not "
+          "show the force either; assessed with --assess")
+      ->type_name("NAME|FILE");
   command.add_flag_callback(
       "--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
 }

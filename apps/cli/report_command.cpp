@@ -89,7 +89,8 @@ report::BesideTrial besideOf(const TrialReportOptions& o) {
   const std::string file = sessionFile(o.beside);
   const evidence::RecordedSession session(file);
   const FoundTrial other = findTrial(session, o.beside_trial, file);
-  const std::string who = session.simulated() ? "a simulated " + session.operatorName()
+  const std::string who = session.operatorName() == "custom" ? "a simulated operator"
+                          : session.simulated() ? "a simulated " + session.operatorName()
                           : session.operatorName() == "expert" ? "an expert"
                                                                : "another person";
   return {session.operatorName() == "expert" ? "expert" : "beside",

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
 
 namespace palpa::presentation {
@@ -62,33 +64,22 @@ void refuseUnknown(const JsonFile& file) {
       file.refuse(field, "is no field of a presentation");
 }
 
-Presentation read(const JsonFile& file) {
-  file.needVersion(1);
-  refuseUnknown(file);
-  Presentation shown;
-  shown.name = file.text("name");
-  shown.title = file.text("title");
-  shown.source = file.text("source");
-  shown.skin = lookIn(file, "skin", kSkins);
-  shown.views = lookIn(file, "views", kViews);
-  for (const Part& part : kParts) shown.*part.shown = file.flag(part.field);
-  return shown;
-}
-
 }  // namespace
 
 bool replacesFeeling(const Presentation& shown) {
-  return shown.arrows || shown.newtons || shown.tissue_words || shown.contact_words;
+  return shown.arrows || shown.newtons || shown.tissue_words || shown.contact_words ||
+         shown.skin_deflection;
 }
 
 bool unaided(const Presentation& shown) {
   return !replacesFeeling(shown) && shown.skin == SkinLook::solid && !shown.anatomy &&
-         !shown.trail && !shown.guidance && !shown.skin_deflection;
+         !shown.trail && !shown.guidance && !shown.navigation;
 }
 
 Presentation withoutForces(Presentation shown) {
   shown.name += ", forces not shown";
   shown.arrows = shown.newtons = shown.tissue_words = shown.contact_words = false;
+  shown.skin_deflection = shown.guidance = false;  // a map of pressures is one, too
   return shown;
 }
 
@@ -102,24 +93,45 @@ std::string describe(const Presentation& shown) {
   std::string hidden;
   for (const Part& part : kParts)
     if (!(shown.*part.shown)) hidden += (hidden.empty() ? "" : ", ") + std::string(part.words);
-  return words + (hidden.empty() ? "; everything is shown" : "; not shown: " + hidden);
+  return words + (hidden.empty() ? "; everything may be shown" : "; not shown: " + hidden);
 }
 
-Presentation readPresentation(const std::filesystem::path& path) { return read(JsonFile(path)); }
+Presentation readPresentation(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  file.needVersion(1);
+  refuseUnknown(file);
+  Presentation shown;
+  shown.name = file.text("name");
+  shown.title = file.text("title");
+  shown.source = file.text("source");
+  shown.skin = lookIn(file, "skin", kSkins);
+  shown.views = lookIn(file, "views", kViews);
+  for (const Part& part : kParts) shown.*part.shown = file.flag(part.field);
+  return shown;
+}
 
-std::string textOf(const Presentation& shown) {
-  nlohmann::json text{{"version", 1},
+Presentation presentationNamed(const std::string& text, const std::filesystem::path& shipped,
+                               const std::filesystem::path& beside, const std::string& where) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped))
+    names.insert(entry.path().stem().string());
+  if (names.count(text)) return readPresentation(shipped / (text + ".json"));
+  if (std::filesystem::is_regular_file(beside / text)) return readPresentation(beside / text);
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  throw UsageError("is \"" + text + "\", which is no presentation and no file", where,
+                   "Give one of " + all + ", or a file like those in assets/presentations");
+}
+
+nlohmann::json jsonOf(const Presentation& shown) {
+  nlohmann::json json{{"version", 1},
                       {"name", shown.name},
                       {"title", shown.title},
                       {"source", shown.source},
                       {"skin", nameIn(kSkins, shown.skin)},
                       {"views", nameIn(kViews, shown.views)}};
-  for (const Part& part : kParts) text[part.field] = shown.*part.shown;
-  return text.dump();
-}
-
-Presentation presentationOf(const std::string& text, const std::string& where) {
-  return read(JsonFile::ofText(text, where));
+  for (const Part& part : kParts) json[part.field] = shown.*part.shown;
+  return json;
 }
 
 }  // namespace palpa::presentation

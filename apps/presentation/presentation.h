@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace palpa::presentation {
@@ -28,24 +29,28 @@ struct Presentation {
   bool operator==(const Presentation&) const = default;
 };
 
-/// Arrows, newtons or words say what the hand should feel.
+/// Arrows, newtons, words or a skin that gives way say what the hand should feel.
 bool replacesFeeling(const Presentation& shown);
 
 /// Nothing that is not there without a simulator: fit for an assessment.
 bool unaided(const Presentation& shown);
 
-/// Practice, but nothing that replaces feeling.
+/// The same with nothing that replaces feeling, and no guidance: maps of pressure and steps tell
+/// it.
 Presentation withoutForces(Presentation shown);
 
 /// "solid skin, one fixed view at a time; not shown: anatomy under the skin, trail, ..."
 std::string describe(const Presentation& shown);
 
-/// Of assets/presentations. Throws UsageError naming file and field.
+/// Throws UsageError naming file and field.
 Presentation readPresentation(const std::filesystem::path& file);
 
-/// The file's text, for the evidence.
-std::string textOf(const Presentation& shown);
-/// The reverse; what old evidence does not say is the default.
-Presentation presentationOf(const std::string& text, const std::string& where);
+/// By the name of a set in the folder `shipped`, else a file, relative to `beside`. Throws
+/// UsageError naming `where` it was asked for, and the sets that there are.
+Presentation presentationNamed(const std::string& text, const std::filesystem::path& shipped,
+                               const std::filesystem::path& beside, const std::string& where);
+
+/// As in a file, for the evidence.
+nlohmann::json jsonOf(const Presentation& shown);
 
 }  // namespace palpa::presentation

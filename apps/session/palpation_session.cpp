@@ -157,10 +157,9 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
 
 std::string PalpationWorld::forceNote() const {
   const double deep = task.scoring.rules.levels.back(), clinical = task.clinical_force_N;
-  const std::string here = format("Scaled force: deep is %.1f N here", deep);
-  if (clinical <= 0) return here;
+  if (clinical <= 0) return format("Deep is %.1f N here", deep);
   if (station.safety.max_force_N >= clinical && deep >= clinical) return "";
-  return here + format(", about %.0f N on a patient", clinical);
+  return format("Scaled force: deep is %.1f N here, about %.0f N on a patient", deep, clinical);
 }
 
 namespace {

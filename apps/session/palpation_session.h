@@ -34,8 +34,7 @@ struct PalpationWorld {
   /// sees what is felt there.
   SessionDevices::Hands hands(const SessionOptions& options) const;
   record::SessionInfo info(const SessionOptions& options) const;
-  /// "Scaled force: ..." where the device cannot give what deep palpation takes on a patient;
-  /// empty: it can.
+  /// What deep is here, and on a patient where that is known; empty: the same.
   std::string forceNote() const;
 };
 

@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
@@ -17,6 +19,20 @@ void checkPerson(const SessionOptions& o) {
   if (o.no_views || (o.display != scene::Display::window && !o.headset))
     throw UsageError("needs a window", "--operator person",
                      "Set DISPLAY, or choose --operator expert or novice on the virtual bench");
+}
+
+/// What the presentation would hide is refused: it would be taken for shown.
+void checkShown(const SessionOptions& o) {
+  const presentation::Presentation shown = shownIn(o);
+  const std::tuple<const char*, bool, bool> asked[]{
+      {"--guide on", o.guide, shown.guidance},
+      {"--guidance on", o.guidance, shown.guidance},
+      {"--see-through on", o.see_through, shown.anatomy},
+      {"--skin-deflection on", o.skin_deflection, shown.skin_deflection}};
+  for (const auto& [option, wanted, may] : asked)
+    if (wanted && !may)
+      throw UsageError("is not shown in the presentation \"" + shown.name + "\"", option,
+                       "Leave it out, or choose --presentation practice");
 }
 
 /// What was asked for is refused; what is on by default is taken away, with a word.
@@ -71,20 +87,20 @@ std::filesystem::path operatorFile(const SessionOptions& options, const std::str
 }
 
 presentation::Presentation shownIn(const SessionOptions& options) {
-  const std::string& named = options.presentation;
-  if (std::filesystem::path(named).extension() == ".json")
-    return presentation::readPresentation(named);
-  const auto shipped = [](const std::string& name) {
-    return presentation::readPresentation(station::assetFile("presentations/" + name + ".json"));
+  if (options.presentation) return *options.presentation;
+  const auto shipped = [](const char* name) {
+    return presentation::readPresentation(station::assetFile("presentations") /
+                                          (std::string(name) + ".json"));
   };
-  if (!named.empty()) return shipped(named);
   if (training::inAssessment(options.role)) return shipped("assessed");
   const presentation::Presentation practice = shipped("practice");
   return options.force_feedback ? practice : presentation::withoutForces(practice);
 }
 
 std::string sessionText(nlohmann::json session, const SessionOptions& options) {
-  session["presentation"] = nlohmann::json::parse(presentation::textOf(shownIn(options)));
+  session["presentation"] = presentation::jsonOf(shownIn(options));
+  if (options.who == OperatorKind::custom)
+    session["operator_file"] = JsonFile(options.operator_file).json();
   const StudyStep& s = options.study;
   if (!s.id.empty())
     session["study"] = {{"id", s.id},
@@ -134,6 +150,7 @@ void settle(SessionOptions& o) {
     throw UsageError("would be seen by one eye only", "--inset with --stereo",
                      "Leave one of them out");
   if (o.assess) settleAssessment(o);
+  checkShown(o);
   if (o.exact_geometry && !o.fast)
     throw UsageError("needs virtual time", "--geometry exact",
                      "Add --fast: the full mesh takes longer than a tick");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "anatomy/patient.h"
@@ -72,12 +73,11 @@ struct SessionOptions {
   std::string records;  ///< where finished trials go; empty: nobody is recorded
   bool fast = false;
   bool no_views = false;
-  bool record_video = false;  ///< keep the camera's pictures
-  /// What may be seen: a set of assets/presentations or a file; empty: by role and force feedback
-  std::string presentation;
-  bool navigation = true;        ///< free navigation of the view
-  bool skin_deflection = false;  ///< the skin is shown to give way
-  bool guide = false;            ///< a line from the entry point to the vein: not scored
+  bool record_video = false;                               ///< keep the camera's pictures
+  std::optional<presentation::Presentation> presentation;  ///< empty: by role and force feedback
+  bool navigation = true;                                  ///< free navigation of the view
+  bool skin_deflection = false;                            ///< the skin is shown to give way
+  bool guide = false;  ///< a line from the entry point to the vein: not scored
   scene::ForceColours force_colours = scene::ForceColours::paper;
   scene::Stereo stereo = scene::Stereo::none;
   scene::Inset inset = scene::Inset::none;

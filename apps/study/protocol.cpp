@@ -63,7 +63,7 @@ void needOneOf(const JsonFile& file, const std::string& field, const std::string
 
 /// What `file` says, over what `before` says. A misspelt field would be a condition that is none,
 /// so unknown ones are refused.
-Setting settingIn(const JsonFile& file, Setting before) {
+Setting settingIn(const JsonFile& file, Setting before, const std::filesystem::path& beside) {
   if (!file.json().is_object()) file.refuse("", "must be fields of what is shown and felt");
   static const std::set<std::string> kKnown{"force_feedback",  "presentation", "augment",
                                             "skin_deflection", "guide",        "guidance",
@@ -71,7 +71,10 @@ Setting settingIn(const JsonFile& file, Setting before) {
   for (const auto& [field, ignored] : file.json().items()) needOneOf(file, field, field, kKnown);
   Setting p = std::move(before);
   p.force_feedback = file.flag("force_feedback", p.force_feedback);
-  if (file.has("presentation")) p.presentation = file.text("presentation");
+  if (file.has("presentation"))
+    p.presentation = presentation::presentationNamed(file.text("presentation"),
+                                                     station::assetFile("presentations"), beside,
+                                                     file.name() + ", field \"presentation\"");
   p.augment = file.flag("augment", p.augment);
   p.skin_deflection = file.flag("skin_deflection", p.skin_deflection);
   p.guide = file.flag("guide", p.guide);
@@ -205,6 +208,23 @@ std::string needName(const JsonFile& file, const std::string& field) {
   return name;
 }
 
+namespace {
+
+/// Whoever does not feel the force must not read it off the screen; and whoever feels it must not
+/// see more than the others.
+void showAlike(std::vector<StudyCondition>* conditions) {
+  const bool all_feel = std::all_of(conditions->begin(), conditions->end(),
+                                    [](const StudyCondition& c) { return c.shows.force_feedback; });
+  if (all_feel) return;
+  const presentation::Presentation practice =
+      presentation::readPresentation(station::assetFile("presentations/practice.json"));
+  for (StudyCondition& condition : *conditions)
+    if (!condition.shows.presentation && !condition.shows.guide && !condition.shows.guidance)
+      condition.shows.presentation = presentation::withoutForces(practice);
+}
+
+}  // namespace
+
 Protocol readProtocol(const std::filesystem::path& path) {
   const JsonFile file(path);
   file.needVersion(1);
@@ -217,13 +237,14 @@ Protocol readProtocol(const std::filesystem::path& path) {
   p.groups = namedIn<Group>(file, "groups", [](const JsonFile& f) {
     return Group{needName(f, "name"), f.text("means")};
   });
-  const Setting always = settingIn(partOf(file, "always"), {});
+  const Setting always = settingIn(partOf(file, "always"), {}, path.parent_path());
   p.conditions = namedIn<StudyCondition>(file, "conditions", [&](const JsonFile& f) {
     if (f.text("name") == kDrawn)
       f.refuse("name", "is \"drawn\", which means the condition that a trainee draws");
     return StudyCondition{needName(f, "name"), f.text("means"),
-                          settingIn(partOf(f, "sets"), always)};
+                          settingIn(partOf(f, "sets"), always, path.parent_path())};
   });
+  showAlike(&p.conditions);
   if (file.has("allocation")) p.allocation = allocationIn(partOf(file, "allocation"), p);
   p.sessions =
       namedIn<Session>(file, "sessions", [&](const JsonFile& f) { return sessionIn(f, p); });

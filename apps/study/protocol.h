@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/presentation/presentation.h"
 #include "apps/study/questionnaire.h"
 #include "apps/training/engine.h"
 #include "apps/training/trial_words.h"
@@ -19,8 +20,9 @@ namespace palpa::study {
 /// What is felt, and what of it is shown.
 struct Setting {
   bool force_feedback = true;
-  /// What may be seen: a set of assets/presentations or a file; empty: by role and force feedback
-  std::string presentation;
+  /// What may be seen. Empty: by role; where any condition is without force feedback, what a
+  /// session without it shows, so that conditions differ in what they say and nothing else
+  std::optional<presentation::Presentation> presentation;
   bool augment = false;          ///< the task's cues are added
   bool skin_deflection = false;  ///< the skin is shown to give way
   bool guide = false;            ///< needle: a line to the vein; such trials are not scored

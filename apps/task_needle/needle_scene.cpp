@@ -162,11 +162,13 @@ void NeedleScene::pulse(scene::HeadDisplay& head, const runtime::ToolState& tool
   const bool inserted = tool.phase == haptics::NeedlePhase::inserted;
   const bool punctured = inserted && (felt_.phase != haptics::NeedlePhase::inserted ||
                                       (felt_.tissue != tool.tissue && tool.depth > felt_.depth));
-  if (tool.bone_force > kBoneFelt && felt_.bone_force <= kBoneFelt)
+  const bool on_bone = tool.bone_force > kBoneFelt && felt_.bone_force <= kBoneFelt;
+  felt_ = tool;
+  if (!status_.force_feedback) return;  // nothing is felt, in whatever way
+  if (on_bone)
     head.pulse(kBonePulse, 1);
   else if (punctured)
     head.pulse(kPuncturePulse, kPunctureStrength);
-  felt_ = tool;
 }
 
 void NeedleScene::compose(scene::SceneState& state, const runtime::ToolState& tool,

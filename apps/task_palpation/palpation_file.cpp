@@ -208,8 +208,9 @@ constexpr int kPlacesTried = 400, kBegunAnew = 200;
 
 constexpr std::uint64_t kOneClearIn = 4;
 
-/// Of every four seeds in a row one, drawn by chance, has no lump, so that no eight cases are
-/// without such a case; the others make up the shares. None where the task wants none.
+/// Of every four seeds in a row (0 to 3, 4 to 7, ...) one, drawn by chance, has no lump, so that no
+/// eight cases in a row are without such a case; the others make up the shares, where these have
+/// less than one in four. None where the task wants none.
 std::size_t countFor(std::vector<double> shares, std::uint64_t seed, double u) {
   if (shares.front() > 0) {
     RandomStream four(seed / kOneClearIn, "palpation.clear_case");

@@ -22,7 +22,7 @@ struct PalpationSceneSetup {
   Pose X_AP = Pose::Identity();
   assess::SearchArea area;
   double tip_radius = 0.008;  ///< m
-  std::string force_note;     ///< "scaled force: ..."; empty: the device gives what a patient would
+  std::string force_note;     ///< what deep is here; empty: as on a patient
 };
 
 /// What is seen of a palpation: the area and how firmly it was felt, marks, lumps where they may be

@@ -199,7 +199,7 @@ trial::TrialTask::Conclusion PalpationTask::conclude(Outcome outcome, const std:
   const assess::PalpationAssessment& judged = completed_.back().assessment;
   return {scoreJson(judged), judged.summary,
           outcome == Outcome::done ? judged.summary : "Trial ended: " + training::nameOf(outcome),
-          "What was felt and marked, and what lies inside"};
+          "The end of the search"};
 }
 
 void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {

@@ -11,7 +11,11 @@ using scene::SkinStyle;
 void keepShown(const Presentation& shown, scene::SceneState* state) {
   if (!shown.arrows) state->forces.clear();
   if (!shown.trail) state->trail_A.clear();
-  if (!shown.anatomy) state->lumps.clear();
+  if (!shown.anatomy) {  // an ellipse over solid skin would show where the hidden tip is
+    state->lumps.clear();
+    state->tip_covariance_A.reset();
+  }
+  if (shown.skin != SkinLook::free) state->skin = firstSkin(shown);
   if (!shown.skin_deflection) state->skin_push.reset();
   if (!shown.newtons) state->hud.force.clear();
   if (!shown.tissue_words) state->hud.depth.clear();

@@ -42,7 +42,7 @@ Vec3 keepPassive(const PassivityLimits& limits, PassivityState& state,
   }
   settle(limits, state, f_port.norm(), dt);
   state.added_D = pack(added);
-  state.f_last_D = pack(Vec3(f_port + added));
+  state.f_last_D = pack(Vec3(in.f_D - in.f_source_D + added + in.f_object_D));
   state.p_last_D = pack(in.p_DE);
   state.started = 1;
   return in.f_D + added;

@@ -166,7 +166,8 @@ void OrganActors::moveTo(bool glass, OrganPart& part) {
 
 void OrganActors::apply() {
   for (OrganPart& part : parts_) {
-    const bool hidden = coversOrgans(part.organ) ? style_ == SkinStyle::hidden : !inside_;
+    const bool hidden = (coversOrgans(part.organ) && style_ == SkinStyle::hidden) ||
+                        (part.organ != Organ::skin && !inside_);
     part.actor->SetVisibility(visible_ && !hidden);
     const double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;
     part.actor->GetProperty()->SetOpacity(opacity);

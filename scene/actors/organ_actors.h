@@ -37,7 +37,7 @@ class OrganActors {
 
   void setStyle(SkinStyle style);
   void setVisible(bool visible);
-  void setInside(bool shown);  ///< what does not cover organs
+  void setInside(bool shown);  ///< all but the skin
   /// Where the body is that was made in A: a thing that is held moves. Only what is not translucent
   void setPose(const Pose& X_AB);
   /// The first skin's points as they are drawn; null without one

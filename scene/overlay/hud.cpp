@@ -152,6 +152,7 @@ std::vector<HudPainter::Row> HudPainter::readings() const {
 }
 
 void HudPainter::buildReadings() {
+  readings_ = {content_->panel.x, above_, 1, 1};
   const std::vector<Row> rows = readings();
   if (rows.empty()) return;
   const TextStyle dim = style(0.90, false, colour::kTextDim),
@@ -165,6 +166,7 @@ void HudPainter::buildReadings() {
   const int height = static_cast<int>(rows.size()) * line + pad;
   const Rect frame{content_->panel.x + margin_, above_, names + values + 3 * pad, height};
   plates_.add(frame, colour::kPlate, pad / 2);
+  readings_ = frame;
   above_ = frame.top() + margin_;
   int y = frame.top() - pad / 2 - line / 2;
   for (const Row& row : rows) {
@@ -239,7 +241,9 @@ void HudPainter::buildNotice() {
   const TextStyle look = fitted(second, fitted(first, wish, room), room);
   const int line = lineHeight(look), lines = second.empty() ? 1 : 2;
   const int width = std::max(textWidth(first, look), textWidth(second, look)) + 2 * pad;
-  const Rect frame{panel.x + (panel.width - width) / 2, above_, width, lines * line + pad};
+  const int left = panel.x + (panel.width - width) / 2;
+  const bool beside = left > readings_.right() + margin_;
+  const Rect frame{left, beside ? readings_.y : above_, width, lines * line + pad};
   const Rgba edge = alarm ? opaque(colour::kText) : opaque(colour::kAdvice);
   const int rim = std::max(1, text_ / 8);
   plates_.add({frame.x - rim, frame.y - rim, width + 2 * rim, frame.height + 2 * rim}, edge,

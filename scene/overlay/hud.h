@@ -57,6 +57,7 @@ class HudPainter {
   int margin_ = 10, text_ = 14;
   int below_ = 0;  ///< top of what comes next at the left
   int above_ = 0;  ///< bottom of what comes next at the bottom
+  Rect readings_;  ///< their plate; as wide as a pixel: none
 };
 
 }  // namespace palpa::scene

@@ -28,6 +28,7 @@ OrthoView::OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, c
       plane_(plane),
       region_(region),
       aspect_(region.on_table ? aspectOnTable(plane) : aspectOf(plane, patient.side)),
+      inside_(inside),
       organs_(*renderer_, patient),
       section_(inside ? sectionOf(patient) : nullptr),
       backdrop_(*renderer_, false),
@@ -131,6 +132,8 @@ void OrthoView::prepareStill() {
 }
 
 void OrthoView::keepStill(const Image& window_picture) {
+  if (trail_) trail_->VisibilityOn();
+  if (!inside_) return;
   Image still{where_.width, where_.height, window_picture.channels, {}};
   const std::size_t row = static_cast<std::size_t>(still.width) * still.channels;
   const int top = window_picture.height - where_.top();
@@ -143,7 +146,6 @@ void OrthoView::keepStill(const Image& window_picture) {
   backdrop_.show(still);
   organs_.setVisible(false);
   if (section_) section_->VisibilityOff();
-  if (trail_) trail_->VisibilityOn();
   plates_.setVisible(false);
   for (const auto& words : words_) words->hide();
 }

@@ -20,9 +20,9 @@ class vtkRenderWindow;
 
 namespace palpa::scene {
 
-/// A fixed parallel view; `inside`: through the skin. The anatomy in it never moves, so it is drawn
-/// once, kept as a picture and put behind the tool; the tool therefore shows through the organs, as
-/// on a radiograph.
+/// A fixed parallel view. The anatomy in it never moves, so it is drawn once, kept as a picture and
+/// put behind the tool; the tool therefore shows through the organs, as on a radiograph. Without
+/// what is `inside` only the skin is there, solid, and hides what is under it, the tool as well.
 class OrthoView {
  public:
   OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
@@ -55,6 +55,7 @@ class OrthoView {
   Plane plane_;
   Region region_;
   Aspect aspect_;
+  bool inside_;
   Rect where_;
   int window_height_ = 1;
   OrganActors organs_;

@@ -120,7 +120,7 @@ TEST(Palpation, TheSameSeedGivesTheSameNumbersAndViewsChangeNone) {
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
   const std::string page = contentOf(here / "B/report.html");
   for (const char* words :
-       {"SIMULATED", "Scaled force", "Where this task stands", "real silicone, a virtual lump"})
+       {"SIMULATED", "Deep is ", "Where this task stands", "real silicone, a virtual lump"})
     EXPECT_TRUE(says(page, words)) << words;
   bool pictures = false;
   for (const std::string& file : here.files()) pictures = pictures || says(file, "-end.png");

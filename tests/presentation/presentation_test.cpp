@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/trial/shown.h"
 #include "tests/support/files.h"
 
@@ -42,16 +42,33 @@ TEST(Presentation, ThePilotIsItsSources) {
   EXPECT_FALSE(replacesFeeling(pilot));
 }
 
-TEST(Presentation, TextAndBack) {
-  const Presentation pilot = readPresentation(shipped("pilot"));
-  EXPECT_EQ(presentationOf(textOf(pilot), "a session"), pilot);
-  const Presentation unfelt = withoutForces(Presentation{});
-  EXPECT_EQ(presentationOf(textOf(unfelt), "a session"), unfelt);
+TEST(Presentation, WhatIsRecordedCanBeReadAgain) {
+  const std::filesystem::path here = test::freshFolder("presentation", "recorded");
+  const Presentation unfelt = withoutForces(readPresentation(shipped("practice")));
   EXPECT_EQ(unfelt.name, "practice, forces not shown");
+  EXPECT_FALSE(replacesFeeling(unfelt));
+  writeWhole(here / "own.json", jsonOf(unfelt).dump());
+  EXPECT_EQ(readPresentation(here / "own.json"), unfelt);
+}
+
+TEST(Presentation, IsFoundByItsNameOrAsAFile) {
+  const std::filesystem::path here = test::freshFolder("presentation", "named");
+  const std::filesystem::path sets = shipped("pilot").parent_path();
+  writeWhole(here / "own.json", jsonOf(Presentation{}).dump());
+  EXPECT_EQ(presentationNamed("pilot", sets, "", "--presentation").name, "pilot");
+  EXPECT_EQ(presentationNamed("own.json", sets, here, "--presentation"), Presentation{});
+  try {
+    presentationNamed("pilto", sets, "", "--presentation");
+    ADD_FAILURE();
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("assessed, pilot, practice, substitution"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Presentation, SaysWhatIsShown) {
-  EXPECT_EQ(describe(Presentation{}), "skin as chosen, three fixed views; everything is shown");
+  EXPECT_EQ(describe(Presentation{}), "skin as chosen, three fixed views; everything may be shown");
   Presentation one;
   one.skin = SkinLook::solid;
   one.views = FixedViews::one;
@@ -61,16 +78,18 @@ TEST(Presentation, SaysWhatIsShown) {
 }
 
 TEST(Presentation, AMisspeltFieldIsRefused) {
-  const auto with = [](const char* field, const nlohmann::json& value) {
-    nlohmann::json text = nlohmann::json::parse(textOf(Presentation{}));
-    text[field] = value;
-    return text.dump();
+  const std::filesystem::path here = test::freshFolder("presentation", "fields");
+  const auto readWith = [&](const char* field, const nlohmann::json& value) {
+    nlohmann::json json = jsonOf(Presentation{});
+    json[field] = value;
+    writeWhole(here / "own.json", json.dump());
+    readPresentation(here / "own.json");
   };
-  EXPECT_THROW(presentationOf(with("arows", false), "it"), UsageError);
-  EXPECT_THROW(presentationOf(with("skin", "glass"), "it"), UsageError);
-  EXPECT_THROW(presentationOf(with("newtons", "no"), "it"), UsageError);
-  EXPECT_THROW(presentationOf(with("version", 2), "it"), UsageError);
-  EXPECT_NO_THROW(presentationOf(with("newtons", false), "it"));
+  EXPECT_THROW(readWith("arows", false), UsageError);
+  EXPECT_THROW(readWith("skin", "glass"), UsageError);
+  EXPECT_THROW(readWith("newtons", "no"), UsageError);
+  EXPECT_THROW(readWith("version", 2), UsageError);
+  EXPECT_NO_THROW(readWith("newtons", false));
 }
 
 TEST(Presentation, AKeyChangesOnlyASkinThatIsFree) {
@@ -93,11 +112,14 @@ TEST(Presentation, AMapOfWhatWasFeltLeads) {
   state.coverage->levels = {1, 3};
   state.lumps = {scene::ShownLump{}};
   state.lead_A = Vec3::Zero();
+  state.tip_covariance_A = Mat3::Identity();
   state.marks_A = {Vec3::Zero()};
   trial::keepShown(readPresentation(shipped("assessed")), &state);
   EXPECT_EQ(state.coverage->levels, (std::vector<std::uint8_t>{0, 0})) << "the outline stays";
   EXPECT_TRUE(state.lumps.empty());
   EXPECT_FALSE(state.lead_A);
+  EXPECT_FALSE(state.tip_covariance_A) << "it would show where the hidden tip is";
+  EXPECT_EQ(state.skin, scene::SkinStyle::solid);
   EXPECT_EQ(state.marks_A.size(), 1u);
 }
 

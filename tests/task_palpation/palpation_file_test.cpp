@@ -216,6 +216,25 @@ TEST(PalpationCase, TheSameForASeedAndWithinTheArea) {
         << n;  // four standard deviations of a share
 }
 
+TEST(PalpationCase, OneInFourHasNoLump) {
+  const PalpationSettings settings = readPalpation(kAssets / "tasks/palpation_prostate.json");
+  int least = 4, most = 0;
+  for (std::uint64_t four = 0; four < 100; ++four) {
+    int clear = 0;
+    for (std::uint64_t k = 0; k < 4; ++k) clear += drawCase(settings, 4 * four + k).empty();
+    least = std::min(least, clear);
+    most = std::max(most, clear);
+  }
+  EXPECT_EQ(least, 1);
+  EXPECT_GE(most, 2) << "the prostate's three in ten are more than one in four";
+}
+
+TEST(PalpationCase, NoneHasNoLumpWhereTheTaskWantsNone) {
+  PalpationSettings settings = readPalpation(kAssets / "tasks/palpation_prostate.json");
+  settings.cases.lumps = {0, 0.5, 0.5};
+  for (std::uint64_t seed = 0; seed < 100; ++seed) EXPECT_FALSE(drawCase(settings, seed).empty());
+}
+
 TEST(PalpationCase, LumpsThatHardlyFitAreRefusedBeforeAnythingStarts) {
   Copy copy;
   copy.task["cases"]["lumps"] = {0.2, 0.2, 0.2, 0.2, 0.2};

@@ -208,8 +208,9 @@ Fact judgementFact(const assess::PalpationJudgement& judgement,
   }
   std::vector<std::string> below;
   for (const assess::Shortfall one : judgement.below) below.push_back(assess::wordsOf(one));
+  const bool passed = judgement.verdict == PalpationVerdict::passed;
   return {
-      "Passed?", below.empty() ? "yes" : "no: " + assess::joinedWords(below),
+      "Passed?", passed ? "yes" : "no: " + assess::joinedWords(below),
       "asked for: " + assess::standardWords(standard) + "; reached: " + reachedWords(judgement)};
 }
 
@@ -218,8 +219,9 @@ Fact discriminationFact(const statistics::Detections& quarters) {
   const statistics::Discrimination told = statistics::discriminationOf(quarters);
   if (!std::isfinite(told.d)) return {"d′", "–", "nothing to tell it from"};
   return {"d′", fixed(told.d, 1),
-          "quarters with a lump told from clear ones: 0 by chance, above 3 nearly always. "
-          "Criterion " +
+          std::to_string(quarters.signals) + " quarters with a lump told from " +
+              std::to_string(quarters.rest) +
+              " clear ones: 0 by chance, 3 nearly always; few quarters keep it low. Criterion " +
               fixed(told.criterion, 1) + ": above 0 marks too little, below 0 too readily"};
 }
 

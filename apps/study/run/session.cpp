@@ -17,11 +17,9 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kSeedsOfStep = 10'000;  // more than a block can have trials
 
-/// A file of a presentation stands beside the protocol.
-void present(const study::Setting& p, const fs::path& beside, session::SessionOptions* o) {
+void present(const study::Setting& p, session::SessionOptions* o) {
   o->force_feedback = p.force_feedback;
-  const bool is_file = fs::path(p.presentation).extension() == ".json";
-  o->presentation = is_file ? (beside / p.presentation).string() : p.presentation;
+  o->presentation = p.presentation;
   o->augment = p.augment;
   o->skin_deflection = p.skin_deflection;
   o->guide = p.guide;
@@ -45,7 +43,7 @@ session::SessionOptions studySession(const session::SessionOptions& place,
   o.seed = protocol.trial_seed + kSeedsOfStep * static_cast<std::uint64_t>(block.step) +
            static_cast<std::uint64_t>(next.done);
   o.demonstration = o.familiarisation = false;
-  present(protocol.condition(next.condition)->shows, protocol.file.parent_path(), &o);
+  present(protocol.condition(next.condition)->shows, &o);
   o.uuid = newUuid();
   o.study = {protocol.id, block.step,    enrolment.group, next.condition,
              block.name,  next.done + 1, protocol.sha256};
