@@ -94,7 +94,8 @@ presentation::Presentation shownIn(const SessionOptions& options) {
   };
   if (training::inAssessment(options.role)) return shipped("assessed");
   const presentation::Presentation practice = shipped("practice");
-  return options.force_feedback ? practice : presentation::withoutForces(practice);
+  const bool told = options.force_feedback && !options.hide_forces;
+  return told ? practice : presentation::withoutForces(practice);
 }
 
 std::string sessionText(nlohmann::json session, const SessionOptions& options) {

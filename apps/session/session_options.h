@@ -75,9 +75,10 @@ struct SessionOptions {
   bool no_views = false;
   bool record_video = false;                               ///< keep the camera's pictures
   std::optional<presentation::Presentation> presentation;  ///< empty: by role and force feedback
-  bool navigation = true;                                  ///< free navigation of the view
-  bool skin_deflection = false;                            ///< the skin is shown to give way
-  bool guide = false;  ///< a line from the entry point to the vein: not scored
+  bool hide_forces = false;      ///< a study's: those of other conditions do not feel them
+  bool navigation = true;        ///< free navigation of the view
+  bool skin_deflection = false;  ///< the skin is shown to give way
+  bool guide = false;            ///< a line from the entry point to the vein: not scored
   scene::ForceColours force_colours = scene::ForceColours::paper;
   scene::Stereo stereo = scene::Stereo::none;
   scene::Inset inset = scene::Inset::none;

@@ -9,6 +9,7 @@
 #include "anatomy/base/random.h"
 #include "anatomy/base/sha256.h"
 #include "apps/record/store/record_store.h"
+#include "apps/station/assets.h"
 #include "apps/training/engine.h"
 
 namespace palpa::study {
@@ -216,11 +217,9 @@ void showAlike(std::vector<StudyCondition>* conditions) {
   const bool all_feel = std::all_of(conditions->begin(), conditions->end(),
                                     [](const StudyCondition& c) { return c.shows.force_feedback; });
   if (all_feel) return;
-  const presentation::Presentation practice =
-      presentation::readPresentation(station::assetFile("presentations/practice.json"));
   for (StudyCondition& condition : *conditions)
-    if (!condition.shows.presentation && !condition.shows.guide && !condition.shows.guidance)
-      condition.shows.presentation = presentation::withoutForces(practice);
+    condition.shows.hide_forces =
+        !condition.shows.presentation && !condition.shows.guide && !condition.shows.guidance;
 }
 
 }  // namespace

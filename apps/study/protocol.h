@@ -20,9 +20,10 @@ namespace palpa::study {
 /// What is felt, and what of it is shown.
 struct Setting {
   bool force_feedback = true;
-  /// What may be seen. Empty: by role; where any condition is without force feedback, what a
-  /// session without it shows, so that conditions differ in what they say and nothing else
-  std::optional<presentation::Presentation> presentation;
+  std::optional<presentation::Presentation> presentation;  ///< empty: by role and force feedback
+  /// Another condition is without force feedback, and none names its presentation: nobody sees the
+  /// force, so that conditions differ in what they say and in nothing else
+  bool hide_forces = false;
   bool augment = false;          ///< the task's cues are added
   bool skin_deflection = false;  ///< the skin is shown to give way
   bool guide = false;            ///< needle: a line to the vein; such trials are not scored

@@ -105,6 +105,13 @@ TEST(Rate, MistakesAreSaid) {
           "pseudonym");
   refused({"paracentesis", "--assess", "--guide", "on", "--fast", "--operator", "expert"},
           "--guide on with --assess");
+  refused({"paracentesis", "--assess", "--presentation", "substitution", "--fast", "--operator",
+           "expert"},
+          "--presentation with --assess");
+  refused({"paracentesis", "--presentation", "pilot", "--guide", "on", "--fast", "--operator",
+           "expert"},
+          "--guide on");
+  refused({"paracentesis", "--presentation", "pilto", "--fast", "--operator", "expert"}, "pilot");
   refused({"search", "--assess", "--mode", "augmented", "--fast", "--operator", "expert"},
           "--mode augmented with --assess");
 }

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+
 #include <vtkRenderWindow.h>
+#include <array>
 
 #include "scene/panels.h"
 #include "tests/scene/offscreen.h"
@@ -112,6 +114,32 @@ TEST(NothingInside, IsShown) {
   }
 }
 
+/// A needle under solid skin is not seen from the front.
+TEST(NothingInside, NotEvenTheNeedle) {
+  const anatomy::Patient patient = test::simplePatient();
+  ViewLayout layout{900, 600, FixedViews::three, true};
+  SceneState state;
+  const auto pixelsThatMove = [&](bool inside) {
+    layout.inside = inside;
+    SceneView view(offscreen(), patient, layout);
+    state.skin = SkinStyle::solid;
+    std::array<Image, 2> frames;
+    for (std::size_t i = 0; i < 2; ++i) {  // along the skin, deep under it
+      const double z = -0.01 + 0.004 * static_cast<double>(i);
+      state.X_AT = makePose(rotationWithZ(Vec3::UnitX()), Vec3(-0.03, 0.05, z));
+      view.show(state);
+      frames[i] = view.capture();
+    }
+    return blobOf(frames[0],
+                  [&](int u, int v) {
+                    return u > 0.7 * 900 && v < 200 &&
+                           difference(at(frames[0], u, v), at(frames[1], u, v)) > 8;
+                  })
+        .count;
+  };
+  EXPECT_LT(3 * pixelsThatMove(false), pixelsThatMove(true) + 1);
+}
+
 TEST(Layout, PanelsTileTheWindowWithoutOverlap) {
   for (const auto& [width, height] :
        {std::pair(1280, 720), std::pair(640, 480), std::pair(333, 201)}) {
@@ -128,6 +156,17 @@ TEST(Layout, PanelsTileTheWindowWithoutOverlap) {
     EXPECT_EQ(panels.front.top(), height);
     EXPECT_EQ(panels.top.y, 0);
   }
+}
+
+TEST(Layout, OneViewHasTheRightHalfAndNoneLeavesAllToThePicture) {
+  const Panels one = layoutPanels(800, 400, FixedViews::one);
+  EXPECT_EQ(one.ar, (Rect{0, 0, 400, 400}));
+  for (const Rect* r : {&one.front, &one.side, &one.top}) {
+    EXPECT_GE(r->x, one.ar.right());
+    EXPECT_EQ(r->right(), 800);
+    EXPECT_EQ(r->height, 400);
+  }
+  EXPECT_EQ(layoutPanels(800, 400, FixedViews::none).ar, (Rect{0, 0, 800, 400}));
 }
 
 TEST(Layout, LetterboxKeepsTheAspectAndTheMiddle) {

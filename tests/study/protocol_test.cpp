@@ -37,6 +37,31 @@ TEST(Protocol, IsReadAsWritten) {
   EXPECT_THROW(p.block(4), Error);
 }
 
+/// Whoever does not feel the force must not read it off the screen, nor the others see more.
+TEST(Protocol, ConditionsDifferInWhatTheySayAlone) {
+  for (const StudyCondition& c : readProtocol(written(smallProtocol())).conditions) {
+    EXPECT_TRUE(c.shows.hide_forces) << c.name;
+    EXPECT_FALSE(c.shows.presentation) << c.name;
+  }
+  json all_feel = smallProtocol();
+  all_feel["conditions"][1]["sets"] = {{"augment", true}};
+  for (const StudyCondition& c : readProtocol(written(all_feel)).conditions)
+    EXPECT_FALSE(c.shows.hide_forces) << c.name;
+}
+
+TEST(Protocol, APresentationIsNamedOrAFileBesideIt) {
+  json named = smallProtocol();
+  named["conditions"][1]["sets"]["presentation"] = "substitution";
+  const Protocol p = readProtocol(written(named));
+  EXPECT_EQ(p.condition("B")->shows.presentation.value().name, "substitution");
+  EXPECT_FALSE(p.condition("B")->shows.hide_forces);
+  named["conditions"][1]["sets"]["presentation"] = "substituton";
+  const auto file = written(named);
+  const std::string said = complaintOf([&] { readProtocol(file); });
+  EXPECT_NE(said.find("substitution"), std::string::npos) << said;
+  EXPECT_NE(said.find("protocol.json"), std::string::npos) << said;
+}
+
 TEST(Protocol, TheFormerNamesOfFieldsAreRead) {
   json former = smallProtocol();
   former["bars_experts"] = false;
@@ -56,8 +81,9 @@ TEST(Protocol, TheShippedOnesAreTheSources) {
   EXPECT_TRUE(pilot.condition("FF")->shows.force_feedback);
   EXPECT_FALSE(pilot.condition("NO")->shows.force_feedback);
   for (const StudyCondition& c : pilot.conditions)
-    EXPECT_FALSE(c.shows.navigation || c.shows.skin_deflection || c.shows.augment || c.shows.guide)
-        << c.name;
+    EXPECT_FALSE(c.shows.skin_deflection || c.shows.augment || c.shows.guide) << c.name;
+  for (const StudyCondition& c : pilot.conditions)
+    EXPECT_EQ(c.shows.presentation.value().name, "pilot") << c.name;
   EXPECT_TRUE(pilot.sessions.at(0).questionnaire);
 
   const Protocol search = readProtocol(shipped / "search_study.json");

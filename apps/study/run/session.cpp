@@ -20,6 +20,7 @@ constexpr std::uint64_t kSeedsOfStep = 10'000;  // more than a block can have tr
 void present(const study::Setting& p, session::SessionOptions* o) {
   o->force_feedback = p.force_feedback;
   o->presentation = p.presentation;
+  o->hide_forces = p.hide_forces;
   o->augment = p.augment;
   o->skin_deflection = p.skin_deflection;
   o->guide = p.guide;
