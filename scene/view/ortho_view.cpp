@@ -36,6 +36,7 @@ OrthoView::OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, c
       tool_(*renderer_),
       plates_(*renderer_) {
   setUpRenderer(*renderer_, colour::kPanel);
+  organs_.setInside(inside);
   organs_.setStyle(!inside             ? SkinStyle::solid
                    : region_.only_skin ? SkinStyle::translucent
                                        : SkinStyle::hidden);

@@ -303,7 +303,9 @@ std::vector<Kind> studyKinds() {
        .read = readWholeProtocol,
        // Conditions are asked for by name, none in vain; tasks and questionnaires must exist; a
        // rest has a length; blocks of an allocation can be balanced.
-       .stricter = {"/conditions.*", " without allocation", "/allocation/.*", "/sessions.*"},
+       // Presentations are asked for by name, too.
+       .stricter = {"/conditions.*", " without allocation", "/allocation/.*", "/sessions.*",
+                    "/always/presentation.*"},
        .forgiving = {},
        .elsewhere = {}},
       {.name = "presentation",

@@ -33,6 +33,7 @@ constexpr Place kPlaces[] = {
     {"patients/reference.json", "population"},
     {"phantoms/[^/.]+.json", "phantoms"},
     {"phantoms/[^/]+.tables.json", "phantom_tables"},
+    {"presentations/[^/]+", "presentation"},
     {"protocols/[^/]+", "protocol"},
     {"protocols/learners/[^/]+", "learners"},
     {"protocols/questionnaires/[^/]+", "questionnaire"},
