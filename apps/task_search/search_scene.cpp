@@ -1,12 +1,11 @@
 #include "apps/task_search/search_scene.h"
 
-#include <algorithm>
 #include <cstdio>
 
 namespace palpa::task_search {
 
 Vec3 shownPoint(const Pose& X_AF, double magnification, const Vec3& p_F) {
-  return X_AF * Vec3(magnification * Vec3(p_F.x(), p_F.y(), std::max(p_F.z(), 0.0)));
+  return X_AF * Vec3(magnification * p_F);
 }
 
 SearchScene::SearchScene(const SearchSceneSetup& setup, runtime::Bus& bus, SearchChannels& channels)

@@ -31,9 +31,7 @@ class SearchScene final : public trial::TrialScene {
   SearchStatus status_;
 };
 
-/// A point of the hand's floor as it is shown, in A; both frames meet in the floor's middle. What
-/// is under the floor is shown on it: a soft one gives way in the hand, and its grooves are not to
-/// be seen.
+/// A point of the hand's floor as it is shown, in A; both frames meet in the floor's middle.
 Vec3 shownPoint(const Pose& X_AF, double magnification, const Vec3& p_F);
 
 }  // namespace palpa::task_search

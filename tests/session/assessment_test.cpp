@@ -115,8 +115,9 @@ TEST(Assessment, EveryAidIsRefused) {
   refused([](SessionOptions& o) { o.mode = "augmented"; });
   refused([](SessionOptions& o) { o.mode = "all"; });
   refused([](SessionOptions& o) { o.blocks = true; });
+  refused([](SessionOptions& o) { o.presentation = presentation::Presentation{}; });
   const SessionOptions left = quick(true);
-  EXPECT_FALSE(left.navigation);
+  EXPECT_TRUE(presentation::unaided(shownIn(left)));
   EXPECT_FALSE(left.demonstration);
   EXPECT_EQ(left.role, training::Role::assessed);
 }
