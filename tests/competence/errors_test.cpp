@@ -14,7 +14,7 @@ namespace {
 using palpa::test::kDeg;
 using palpa::test::Script;
 
-int variants() { return palpa::test::countedUnlessSanitized(50, 500); }
+int variants() { return palpa::test::counted(50, 500); }
 
 double between(RandomStream& draw, double low, double high) {
   return low + (high - low) * draw.openUniform();

@@ -16,17 +16,11 @@ Count counted(Count few, Count full) {
   return fullCounts() ? full : few;
 }
 
+/// Whether a sanitizer looks on.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
 #endif
-
-/// Of simulated time, where a sanitizer looks on: many times as slow, and what it looks for shows
-/// in the few. All of them run without it.
-template <class Count>
-Count countedUnlessSanitized(Count few, Count full) {
-  return kSanitized ? few : counted(few, full);
-}
 
 }  // namespace palpa::test
