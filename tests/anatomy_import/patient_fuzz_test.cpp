@@ -30,14 +30,13 @@ constexpr rlim_t kMemory = 256u << 20;  // beyond what the process has already
 class LittleMemory {
  public:
   LittleMemory() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    if (palpa::test::kSanitized) return;
     getrlimit(RLIMIT_AS, &before_);
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     rlimit little = before_;
     little.rlim_cur = pages * 4096 + kMemory;
     limited_ = pages > 0 && setrlimit(RLIMIT_AS, &little) == 0;
-#endif
   }
   ~LittleMemory() {
     if (limited_) setrlimit(RLIMIT_AS, &before_);

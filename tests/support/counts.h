@@ -16,4 +16,11 @@ Count counted(Count few, Count full) {
   return fullCounts() ? full : few;
 }
 
+/// Whether a sanitizer looks on.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
 }  // namespace palpa::test
