@@ -33,7 +33,9 @@ inline constexpr Rgb kRubber{0.13, 0.14, 0.16};
 inline constexpr Rgb kPlastic{0.90, 0.92, 0.94};
 inline constexpr Rgb kTip{0.93, 0.93, 0.88};  ///< of the palpation probe
 inline constexpr Rgb kInk{0.10, 0.14, 0.20};
-inline constexpr Rgb kBlood{0.50, 0.02, 0.03};
+inline constexpr Rgb kBlood{0.50, 0.02, 0.03};          ///< of a vein
+inline constexpr Rgb kArterialBlood{0.93, 0.16, 0.12};  ///< three times as bright
+inline constexpr Rgb kAir{0.94, 0.97, 1.00};            ///< bubbles
 inline constexpr Rgb kTrail{0.99, 0.82, 0.26};
 // Felt lightly, firmly, deeply: as maps show the sea, paler where it is shallow. Each has its
 // brightness, whatever lies below.

@@ -137,6 +137,8 @@ struct SceneState {
   bool show_tool = true;
   double plunger = 0;  ///< drawn fraction, 0..1
   double blood = 0;    ///< fraction of the syringe filled with blood, 0..1
+  /// Whose: an artery's is bright, any other dark; the lung: bubbles rise.
+  Tissue blood_of = Tissue::vein_lumen;
   SkinStyle skin = SkinStyle::translucent;
   int fixed_view = 0;  ///< which one, where one is shown at a time
   /// How a tool presses the skin in or draws it out; shown by views with

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -13,6 +14,7 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kNear = 0.008;  // m: organs farther apart need no line
+constexpr double kArmAtRest = 40;  // degrees
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 class Checker {
@@ -28,9 +30,20 @@ class Checker {
   std::vector<PatientFinding> run() {
     checkLine();
     checkFirstMet();
+    checkArm();
     checkVein();
     checkGaps();
     checkMeshes();
+    return std::move(findings_);
+  }
+
+  /// What decides whether a score can be given.
+  std::vector<PatientFinding> line() {
+    checkLine();
+    checkFirstMet();
+    checkArm();
+    const double inside = -1e3 * query_.closest(vein_, target_).distance;
+    report("target inside the vein", inside, "mm", inside > 0, "above 0");
     return std::move(findings_);
   }
 
@@ -70,6 +83,15 @@ class Checker {
            "1 to 4, or to the vein's radius and 2");
   }
 
+  /// A raised arm takes the clavicle's outer end along, and with it what is taught by the clavicle.
+  void checkArm() {
+    const Vec3 chord =
+        patient_.landmark(landmark::kAcromialEnd) - patient_.landmark(landmark::kSternalEnd);
+    const double rise = std::asin(chord.normalized().z()) * 180 / std::numbers::pi;
+    report("clavicle's rise toward the shoulder", rise, "deg", std::abs(rise) <= kArmAtRest,
+           "-40 to 40");
+  }
+
   // Structures that must not be met before the vein on the line, nor 10 mm along the skin's normal.
   static bool vital(Organ organ) { return organ != Organ::skin && organ != Organ::muscle; }
 
@@ -79,7 +101,8 @@ class Checker {
     const auto first =
         std::find_if(hits.begin(), hits.end(), [](auto& h) { return vital(h.organ); });
     const bool vein_first = first != hits.end() && first->organ == Organ::vein;
-    report("way to what the needle meets first (the vein)",
+    const std::string met = first == hits.end() ? "nothing" : palpa::name(first->organ);
+    report("way to what the needle meets first (" + met + ")",
            first == hits.end() ? 0 : 1e3 * (first->s - 5e-3), "mm", vein_first, "the vein");
     const Vec3 inward = -query_.closest(skin_, entry_).n_A;
     const auto down = query_.cast(entry_ + 1e-4 * inward, inward, 0.060);
@@ -218,6 +241,18 @@ void requireForNeedle(const Patient& patient, const std::string& where) {
   if (!list.empty())
     throw Error("this patient is to be looked at, not to be punctured: it lacks " + list, where,
                 "Add what is missing, or take another patient (palpa patient build)");
+}
+
+std::string whyNotScored(const Patient& patient) {
+  for (const PatientFinding& finding : Checker(patient).line()) {
+    if (finding.ok) continue;
+    char value[32];
+    std::snprintf(value, sizeof value, "%.1f", finding.value);
+    return "this patient's taught line is out of the range that can be scored: " + finding.name +
+           " " + value + (finding.unit.empty() ? "" : " " + finding.unit) + ", wanted " +
+           finding.wanted;
+  }
+  return "";
 }
 
 std::vector<PatientFinding> checkPatient(const Patient& patient) { return Checker(patient).run(); }

@@ -22,6 +22,12 @@ struct PatientFinding {
 /// entry_point and vein_target and the organs of the reference patient; throws Error without.
 std::vector<PatientFinding> checkPatient(const Patient& patient);
 
+/// Why no score can be given on this patient, as a clause: the line from its entry point to its
+/// vein's target is not the one that is taught (the findings about it in checkPatient), or its
+/// clavicle rises or falls toward the shoulder as with a raised or hanging arm (by more than 40
+/// degrees [chosen]), so that what is taught by the clavicle would lead elsewhere. Empty: it can.
+std::string whyNotScored(const Patient& patient);
+
 /// Landmarks and organs that the needle task cannot do without and the patient lacks, by name;
 /// empty for a fit patient.
 std::vector<std::string> missingForNeedle(const Patient& patient);

@@ -1,5 +1,6 @@
 #include "apps/evidence/evidence_records.h"
 
+#include <cmath>
 #include <map>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
+#include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/needle_metrics.h"
 #include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/assess/search/search_trial.h"
@@ -174,15 +176,19 @@ EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const st
 
 namespace {
 
-/// What makes a trial unlike others of its task: a search's stiffness, cues, guidance.
-std::string conditionOf(const record::TrialWithSession& stored) {
+/// What makes a trial unlike others of its task: a search's stiffness, other scoring rules, cues,
+/// guidance.
+std::string conditionOf(const record::TrialWithSession& stored, bool by_path) {
   const nlohmann::json facts = parseJson(stored.session.facts_json),
                        score = stored.trial.score_json.empty() ? nlohmann::json::object()
                                                                : parseJson(stored.trial.score_json);
   std::string condition = score.value("MODE", "");
-  const auto also = [&](const char* words) {
-    condition += (condition.empty() ? "" : ", ") + std::string(words);
+  const auto also = [&](const std::string& words) {
+    condition += (condition.empty() ? "" : ", ") + words;
   };
+  const std::string rules = score.value("RULES", "1");
+  if (by_path && rules != assess::kNewestRules)
+    also(rules == assess::kPublishedRules ? "scored as published" : "rules " + rules);
   if (facts.value("augment", false)) also("cues on");
   if (const auto guided = score.find("GUIDED");
       guided != score.end() &&
@@ -209,7 +215,7 @@ progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
   t.simulated = stored.session.simulated;
   t.force_feedback = stored.trial.force_feedback;
   try {
-    t.condition = conditionOf(stored);
+    t.condition = conditionOf(stored, std::isfinite(t.metric("total")));
   } catch (const nlohmann::json::exception& e) {
     throw Error(std::string("a session's description is damaged (") + e.what() + ")",
                 "session " + stored.session.uuid, "Restore the records from a backup");

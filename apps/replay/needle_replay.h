@@ -24,7 +24,7 @@ struct NeedleMoment {
   runtime::ToolState tool;
   assess::ProcedurePhase phase = assess::ProcedurePhase::approach;
   double blood = 0;  ///< filled fraction of the syringe
-  bool blood_flows = false;
+  Tissue holds = Tissue::air, flows = Tissue::air;  ///< as in TaskStatus
 };
 
 /// Takes a session's ticks in their order and keeps of one trial a moment every 4 ms: more than any
@@ -39,7 +39,8 @@ class MomentReader {
   Pose X_ET_;
   assess::TrialSampler sampler_;
   assess::PhaseDetector phases_;
-  double blood_ = 0, last_s_ = 0;
+  assess::Syringe syringe_;
+  double last_s_ = 0;
   std::vector<NeedleMoment> moments_;
 };
 

@@ -55,13 +55,14 @@ struct Displayed {
   Pose X_AT = Pose::Identity();  ///< the needle as drawn on the drawn patient
   int trial = 0;
   bool running = false;
-  bool blood_flows = false;             ///< blood enters the syringe
+  Tissue flows = Tissue::air;           ///< whose blood or air enters the syringe
   bool injury = false;                  ///< lung or artery: the screen says so
   Pose second_X_AT = Pose::Identity();  ///< another tool, where there is one
   enum class Question : std::uint8_t {
     none,
     harder,
-    heavier
+    heavier,
+    aspirated
   } question = Question::none;  ///< that the screen asks
 };
 

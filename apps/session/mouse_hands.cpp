@@ -22,9 +22,6 @@ constexpr double kSmoothing = 0.03;   // s, the mouse's steps become motion
 constexpr std::int64_t kControllerGone = 300 * runtime::kMillisecond;
 constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
 
-constexpr const char* kGrades[] = {"soft",           "hard",           "fixed",
-                                   "mobile",         "diameter 10 mm", "diameter 15 mm",
-                                   "diameter 20 mm", "diameter 25 mm"};  // keys 1 to 8
 constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped",
                                         "other"};
 
@@ -52,7 +49,7 @@ void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
     else if (key == "d" || key == "D")
       send(channels, UserCommand::done);
     else if (key.size() == 1 && key[0] >= '1' && key[0] <= '8')
-      send(channels, UserCommand::grade, kGrades[key[0] - '1']);
+      send(channels, UserCommand::choose, key);
     else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
       send(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
   }

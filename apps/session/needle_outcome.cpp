@@ -82,6 +82,24 @@ std::vector<report::Fact> registrationFacts(const SessionResult& result, const N
   return facts;
 }
 
+std::string scoredBy(const NeedleWorld& world) {
+  const std::string& version = world.task.rules.version;
+  return version == assess::kPublishedRules ? version : "rules " + version;
+}
+
+/// What differs between versions.
+std::string whatIsScored(const NeedleWorld& world) {
+  const assess::ScoringRules& rules = world.task.rules;
+  const bool own = world.expert_path->axes == calibration::PathAxes::own_line;
+  return std::string(own ? "about this patient's own line" : "one path for every patient") +
+         (rules.weights.phase_2 == assess::Phase2Weight::continuous
+              ? "; the weight of PHASE_2 is continuous"
+              : "; PHASE_2 weighs in steps") +
+         (rules.bone_unit == assess::BoneUnit::contacts ? "; bone is counted by contacts"
+                                                        : "; bone is counted by samples") +
+         (rules.told_within_s > 0 ? "; what is aspirated is asked" : "");
+}
+
 std::vector<report::Fact> stationFacts(const SessionOptions& options, const NeedleWorld& world) {
   std::vector<report::Fact> facts = stationFactsOf(options, world.station);
   if (world.task.block)
@@ -92,9 +110,12 @@ std::vector<report::Fact> stationFacts(const SessionOptions& options, const Need
   else
     facts.insert(facts.begin() + 3, {"Patient", world.patient.name,
                                      std::string(anatomy::name(world.patient.side)) + " side"});
-  if (world.expert_path)
+  if (!world.not_scored.empty()) facts.push_back({"Score", "none", world.not_scored});
+  if (world.expert_path) {
     facts.push_back({"Expert path", format("from %d expert trials", world.expert_path->trials),
                      world.expert_path->simulated ? "simulated experts" : ""});
+    facts.push_back({"Scored by", scoredBy(world), whatIsScored(world)});
+  }
   return facts;
 }
 

@@ -21,6 +21,7 @@ std::string whyNotScored(const SessionOptions& options, const NeedleWorld& world
   if (!world.station.calibrated()) return world.station.calibration_verdict;
   if (!world.station.device.capabilities.has_orientation)
     return "the device does not measure how the needle is held";
+  if (!world.not_scored.empty()) return world.not_scored;
   if (options.guide) return "the guide line to the vein was shown";
   return "";
 }

@@ -13,15 +13,6 @@
 namespace palpa::session {
 namespace {
 
-/// A learner at a trial. The clavicle guides whoever feels it: nobody learns to lean on it where it
-/// is not felt.
-twin::OperatorSkill learnt(const SessionOptions& options, const twin::OperatorSkill& from,
-                           const twin::OperatorSkill& to, double level) {
-  twin::OperatorSkill skill = between(from, to, level);
-  if (!options.force_feedback) skill.guide = from.guide;
-  return skill;
-}
-
 std::unique_ptr<twin::Hand> operatorOf(const SessionOptions& options,
                                        const twin::OperatorSkill& skill,
                                        const twin::VisibleAnatomy& anatomy, const Pose& X_ET) {
@@ -32,7 +23,7 @@ std::unique_ptr<twin::Hand> operatorOf(const SessionOptions& options,
        to = twin::readOperatorSkill(options.learner.to), anatomy, X_ET](int trial) {
         const LearnerOptions& learner = options.learner;
         return std::make_unique<twin::Operator>(
-            learnt(options, from, to, learner.level(trial)), anatomy, X_ET,
+            between(from, to, learner.level(trial)), anatomy, X_ET,
             learner.seed + static_cast<std::uint64_t>(trial - 1));
       });
 }

@@ -17,6 +17,7 @@
 #include "apps/session/kept_patient.h"
 #include "apps/session/output_folder.h"
 #include "apps/station/assets.h"
+#include "apps/twin/picture_study.h"
 
 namespace palpa::session {
 namespace {
@@ -110,8 +111,11 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
       landmarks(task.block ? std::nullopt : std::make_optional<anatomy::LandmarkFrame>(patient)) {
   for (const station::RealThing& thing : station.things) real_things.push_back(meshOf(thing));
   if (!options.record_only && !task.expert_path.empty()) {
-    expert_path = calibration::readExpertPath(task.expert_path);
-    taught_path = expert_path->onBody(assess::teachingLineOf(patient, query));
+    not_scored = anatomy::whyNotScored(patient);
+    if (not_scored.empty()) {
+      expert_path = calibration::readExpertPath(task.expert_path);
+      taught_path = expert_path->onBody(assess::teachingLineOf(patient, query));
+    }
   }
   X_WA = options.camera.empty() ? station::placePatient(patient, station.entry_W)
                                 : station::placePatientOnBoard(patient);
@@ -146,9 +150,9 @@ twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill,
     v.cephalad_A = Vec3::UnitZ();
     return v;
   }
-  v.aim_A = knows_patient ? patient.landmark(anatomy::landmark::kVeinTarget)
-                          : Vec3(patient.landmark(anatomy::landmark::kSternalEndPosteriorSuperior) +
-                                 landmarks->vectorToA(skill.aim_offset_L));
+  v.aim_A = patient.landmark(anatomy::landmark::kSternalEndPosteriorSuperior) +
+            landmarks->vectorToA(skill.aim_offset_L);
+  if (knows_patient) v.aim_A = twin::aimByPictures(patient, query, v.entry_A, v.aim_A);
   v.vein_distance = knows_patient ? (v.aim_A - v.entry_A).norm() : skill.vein_distance;
   v.medial_A = landmarks->vectorToA(Vec3::UnitX());
   v.posterior_A = landmarks->vectorToA(Vec3::UnitY());

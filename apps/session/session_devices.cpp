@@ -33,6 +33,8 @@ trial::UserRequest requestOf(const twin::Hand::Word& word) {
   if (word.kind == twin::Hand::WordKind::grade)
     return {trial::UserCommand::grade,
             trial::gradeText(word.diameter, word.hardness, word.mobility)};
+  if (word.kind == twin::Hand::WordKind::chooses)
+    return {trial::UserCommand::choose, std::to_string(word.choice)};
   if (word.kind == twin::Hand::WordKind::done) return {trial::UserCommand::done, ""};
   return {trial::UserCommand::abort, "The simulated operator gave up"};
 }

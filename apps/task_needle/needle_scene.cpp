@@ -71,7 +71,11 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
   if (hurts)
     own = "The needle touches the " +
           std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
-  else if (status.blood_flows)
+  else if (status.asked)
+    own = "What is it? 1: vein, 2: artery, 3: neither";
+  else if (status.flows == Tissue::lung)
+    own = "Bubbles rise in the syringe";
+  else if (status.flows != Tissue::air)
     own = "Blood flows into the syringe";
   trial::noticeOf(status, tool.safety, own, camera, &hud);
   hud.alarm = hud.alarm || (hurts && hud.notice == own);
@@ -177,6 +181,7 @@ void NeedleScene::compose(scene::SceneState& state, const runtime::ToolState& to
   if (skin_) state.skin_push = skin_->follow(tool, X_AD(), now_ns());
   state.plunger = tool.plunger;
   state.blood = status_.blood;
+  state.blood_of = status_.holds;
   state.hud = hudText(status_, tool, trouble, mark(), setup_.words, shown());
   showForces(state, tool);
   leaveTrail(state, tool);
@@ -208,7 +213,8 @@ void NeedleScene::leaveTrail(scene::SceneState& state, const runtime::ToolState&
 }
 
 void NeedleScene::addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) {
-  displayed.blood_flows = status_.blood_flows;
+  displayed.flows = status_.flows;
+  if (status_.asked) displayed.question = runtime::Displayed::Question::aspirated;
   displayed.injury = displayed.running && shown().contact_words && injury(tool);
 }
 

@@ -13,20 +13,16 @@ using training::Outcome;
 namespace {
 
 constexpr double kContactPause = 0.5;  // s without contact before the next one is news
-constexpr double kFillRate = 0.25;     // syringes a second through a freely bleeding needle
 
 std::string scoresJson(const assess::TrialAssessment& a) {
   const assess::ParacentesisValues& v = a.values;
-  return nlohmann::json{
+  nlohmann::json scores{
       {"COL_LUNG", v.col_lung},       {"COL_RIB", v.col_rib},   {"COL_ART", v.col_art},
       {"COL_VEIN", v.col_vein},       {"PHASE_1", v.phase_1},   {"PHASE_2", v.phase_2},
       {"ECON_MEAN", v.econ_mean},     {"ECON_VAR", v.econ_var}, {"TIME", v.time_ms},
-      {"SUCCESS", v.success ? 1 : 0}, {"TOTAL", a.total}}
-      .dump();
-}
-
-bool aspirating(const assess::TrialSample& sample, const assess::ScoringRules& rules) {
-  return sample.tissue == Tissue::vein_lumen && sample.plunger >= rules.plunger_drawn;
+      {"SUCCESS", v.success ? 1 : 0}, {"TOTAL", a.total}};
+  if (a.by_path) scores["RULES"] = a.rules;
+  return scores.dump();
 }
 
 }  // namespace
@@ -61,6 +57,8 @@ runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   passes_ = {};
   samples_.clear();
   in_lumen_s_ = 0;
+  syringe_ = {};
+  question_ = {};
   touched_s_.fill(-kContactPause);
   entered_vein_ = false;
   picture("start", "Before the needle touches the " + setup_.settings.words.of(Organ::skin));
@@ -79,6 +77,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
                                            *setup_.taught_path, setup_.settings.rules);
   } else {
     trial.assessment.trial = status().trial;
+    trial.assessment.rules = setup_.settings.rules.version;
     trial.assessment.role = plan().role;
     trial.assessment.outcome = outcome;
     trial.assessment.seed = plan().seed;
@@ -93,7 +92,8 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
   trial.assessment.doses = doses_.doses();
   trial.samples = std::move(samples_);
   samples_.clear();
-  shown_.blood_flows = false;
+  shown_.flows = Tissue::air;
+  shown_.asked = false;
   const bool success = outcome == Outcome::success;
   completed_.push_back(std::move(trial));
   const std::string reached = setup_.settings.goal ? "Done: " + setup_.settings.goal->means
@@ -117,12 +117,13 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   announce(sample, record.t_ns);
   shown_.step = setup_.settings.goal ? goal_.step() : assess::clinicalName(shown_.phase);
   status().elapsed_s = sample.t_s;
-  shown_.plunger = sample.plunger;
-  shown_.blood_flows = aspirating(sample, setup_.settings.rules);
-  in_lumen_s_ = shown_.blood_flows ? in_lumen_s_ + dt : 0;
-  if (shown_.blood_flows) shown_.blood = std::min(sample.plunger, shown_.blood + kFillRate * dt);
-  if (setup_.settings.goal ? goal_.reached() : in_lumen_s_ >= setup_.settings.rules.dwell_s)
-    return endTrial(Outcome::success, "", now_ns);
+  aspirate(sample, dt, now_ns);
+  hearButtons(record, now_ns);
+  if (!status().active()) return;
+  const assess::ScoringRules& rules = setup_.settings.rules;
+  const bool reached = setup_.settings.goal ? goal_.reached()
+                                            : rules.told_within_s == 0 && in_lumen_s_ >= rules.dwell_s;
+  if (reached) return endTrial(Outcome::success, "", now_ns);
   if (const int most = plan().most_passes; most > 0 && passes_.passes() > most)
     return endTrial(Outcome::passes,
                     "Ended at needle pass " + std::to_string(most + 1) + ": no more than " +
@@ -130,6 +131,56 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
                     now_ns);
   if (sample.t_s >= setup_.settings.time_limit_s)
     return endTrial(Outcome::time, "The time limit was reached", now_ns);
+}
+
+/// What comes into the syringe; where the rules ask, what it is taken for.
+void NeedleTask::aspirate(const assess::TrialSample& sample, double dt, std::int64_t now_ns) {
+  const assess::ScoringRules& rules = setup_.settings.rules;
+  shown_.plunger = sample.plunger;
+  shown_.flows = assess::aspiratedFrom(sample, rules);
+  in_lumen_s_ = shown_.flows == Tissue::vein_lumen ? in_lumen_s_ + dt : 0;
+  syringe_.add(sample, shown_.flows, sample.t_s - dt);
+  shown_.blood = syringe_.blood();
+  shown_.holds = syringe_.of();
+  if (rules.told_within_s == 0 || setup_.settings.goal) return;
+  question_.add(shown_.flows, dt, rules);
+  if (question_.asked() && !shown_.asked)
+    report(now_ns, EventKind::phase, "It is asked what is aspirated");
+  shown_.asked = question_.asked();
+  if (shown_.asked && question_.waited_s() > rules.told_within_s)
+    endTrial(Outcome::mistaken,
+             std::string("It was not said what was aspirated: ") +
+                 assess::looksOf(question_.about()),
+             now_ns);
+}
+
+/// A right word ends the trial in the vein; of artery or lung it only ends the question.
+void NeedleTask::take(assess::Taken taken, std::int64_t now_ns) {
+  if (!question_.asked()) return;
+  const Tissue from = question_.about();
+  question_.answered();
+  shown_.asked = false;
+  report(now_ns, EventKind::answer, std::string("Taken for: ") + assess::name(taken),
+         1 + static_cast<int>(taken));
+  if (!assess::isRight(taken, from))
+    return endTrial(Outcome::mistaken,
+                    std::string("What was aspirated, ") + assess::looksOf(from) +
+                        ", was taken for: " + assess::name(taken),
+                    now_ns);
+  if (from == Tissue::vein_lumen) endTrial(Outcome::success, "", now_ns);
+}
+
+void NeedleTask::receive(const trial::UserRequest& request, std::int64_t now_ns) {
+  if (request.command != trial::UserCommand::choose || request.reason.size() != 1) return;
+  const int choice = request.reason[0] - '1';
+  if (choice >= 0 && choice <= 2) take(static_cast<assess::Taken>(choice), now_ns);
+}
+
+void NeedleTask::hearButtons(const haptics::FlightRecord& record, std::int64_t now_ns) {
+  const std::uint32_t pressed = record.reading.buttons & ~buttons_;
+  buttons_ = record.reading.buttons;
+  for (std::size_t i = 0; i < setup_.answers.size(); ++i)
+    if (pressed & setup_.answers[i]) take(static_cast<assess::Taken>(i), now_ns);
 }
 
 /// Events in clinical words, and pictures of the moments that the report shows.
@@ -175,6 +226,7 @@ void NeedleTask::command(haptics::TickCommands& commands) const {
   commands.puncture_force_N = plan().puncture_force_N;
   commands.wall_scale = plan().wall_scale;
   commands.augmented = plan().augmented;
+  commands.asked = shown_.asked;
   commands.subtask = static_cast<std::uint8_t>(shown_.phase);
 }
 

@@ -5,6 +5,7 @@
 
 #include "anatomy/query/surface_query.h"
 #include "apps/assess/dose_counter.h"
+#include "apps/assess/needle/aspiration.h"
 #include "apps/assess/needle/phases.h"
 #include "apps/assess/needle/trial_sampler.h"
 #include "apps/task_needle/task_file.h"
@@ -20,7 +21,9 @@ struct TaskStatus : trial::TrialStatus {
   assess::ProcedurePhase phase = assess::ProcedurePhase::approach;
   std::string step;               ///< what is being done, in words
   double plunger = 0, blood = 0;  ///< drawn, filled; fractions of the syringe
-  bool blood_flows = false;
+  Tissue flows = Tissue::air;     ///< whose blood or air enters the syringe now
+  Tissue holds = Tissue::air;     ///< whose blood is in it
+  bool asked = false;             ///< what is aspirated: vein, artery or neither
 };
 
 struct TrialPlan {
@@ -61,6 +64,8 @@ struct NeedleTaskSetup {
   std::vector<TrialPlan> plan;
   std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
   haptics::AugmentationPlan augmentations;  ///< as on this device
+  /// Bits of DeviceReading::buttons that say vein, artery, neither; 0: the device has none for it.
+  std::array<std::uint32_t, 3> answers{};
 };
 
 /// The needle's trials: phases, success, time limit, score.
@@ -78,6 +83,10 @@ class NeedleTask final : public trial::TrialTask {
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;
+  void receive(const trial::UserRequest& request, std::int64_t now_ns) override;
+  void aspirate(const assess::TrialSample& sample, double dt, std::int64_t now_ns);
+  void take(assess::Taken taken, std::int64_t now_ns);
+  void hearButtons(const haptics::FlightRecord& record, std::int64_t now_ns);
   void announce(const assess::TrialSample& sample, std::int64_t now_ns);
   const TrialPlan& plan() const {
     return setup_.plan[static_cast<std::size_t>(status().trial - 1)];
@@ -93,6 +102,9 @@ class NeedleTask final : public trial::TrialTask {
   std::vector<assess::TrialSample> samples_;
   assess::TrialDoses doses_;
   std::vector<CompletedTrial> completed_;
+  assess::Syringe syringe_;
+  assess::AspirationQuestion question_;
+  std::uint32_t buttons_ = 0;                    ///< of the last tick
   double in_lumen_s_ = 0;                        ///< dwell with the plunger drawn
   std::array<double, kOrganCount> touched_s_{};  ///< trial time of the last contact, by Organ
   bool entered_vein_ = false;

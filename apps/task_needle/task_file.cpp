@@ -98,8 +98,22 @@ namespace {
 /// A penalty an error: never a reward.
 double weight(const JsonFile& file, const char* field) { return file.number(field, 0, 1e6); }
 
+const EnumNames<assess::BoneUnit> kBoneUnits{"samples", "contacts"};
+const EnumNames<assess::Phase2Weight> kPhase2Weights{"steps", "continuous"};
+
+/// Recordings made before rules had names say nothing of them: those of then.
+void readVersion(const JsonFile& file, assess::ScoringRules* rules) {
+  if (!file.has("scoring/rules")) return;
+  rules->version = file.text("scoring/rules");
+  rules->bone_unit = kBoneUnits.in(file, "scoring/COL_RIB_counts");
+  rules->weights.phase_2 = kPhase2Weights.in(file, "scoring/PHASE_2_weight");
+  if (file.has("scoring/told_within_s"))
+    rules->told_within_s = file.number("scoring/told_within_s", 1, 300);
+}
+
 assess::ScoringRules readRules(const JsonFile& file) {
   assess::ScoringRules rules;
+  readVersion(file, &rules);
   rules.sample_rate_Hz = file.number("scoring/sample_rate_Hz", 1, 1000);
   rules.clavicle_guide_N = file.number("scoring/clavicle_guide_N", 0, 100);
   rules.dwell_s = file.number("scoring/dwell_s", 0, 60);

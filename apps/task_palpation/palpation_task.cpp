@@ -228,8 +228,8 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
 
 void PalpationTask::receive(const trial::UserRequest& request, std::int64_t now_ns) {
   if (request.command == trial::UserCommand::done) return endTrial(Outcome::done, "", now_ns);
-  if (request.command != trial::UserCommand::grade || listener_.marks().empty()) return;
-  const trial::Grade grade = trial::gradeOf(request.reason);
+  if (listener_.marks().empty()) return;
+  const trial::Grade grade = trial::gradeOf(request);
   listener_.grade(grade.diameter, grade.hardness, grade.mobility);
   report(now_ns, EventKind::grade, trial::gradeText(grade.diameter, grade.hardness, grade.mobility),
          static_cast<double>(listener_.marks().size()));

@@ -145,8 +145,7 @@ void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns
 
 void SqueezeTask::receive(const trial::UserRequest& request, std::int64_t now_ns) {
   if (request.command == trial::UserCommand::done) return otherThing(now_ns);
-  if (request.command == trial::UserCommand::grade)
-    answer(trial::gradeOf(request.reason).hardness, now_ns);
+  answer(trial::gradeOf(request).hardness, now_ns);
 }
 
 /// What is held must not change in the hand.

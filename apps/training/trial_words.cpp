@@ -9,7 +9,7 @@ const EnumNames<Role> kRoles{"",       "scored",    "assessed", "familiarisation
                              "guided", "not scored"};
 
 const EnumNames<Outcome> kOutcomes{"",       "success", "done", "time",
-                                   "passes", "aborted", "void", "not scored"};
+                                   "passes", "mistaken", "aborted", "void", "not scored"};
 
 }  // namespace
 

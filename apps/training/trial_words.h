@@ -24,6 +24,7 @@ enum class Outcome : std::uint8_t {
   done,       ///< "done": the trainee has searched, answered, chosen
   time,       ///< "time": the limit was reached
   passes,     ///< "passes": one pass of the needle too many
+  mistaken,   ///< "mistaken": what was aspirated was not told, or told wrong
   aborted,    ///< "aborted"
   voided,     ///< "void": does not count
   not_scored  ///< "not scored"

@@ -29,4 +29,15 @@ Grade gradeOf(const std::string& text) {
   return grade;
 }
 
+Grade gradeOf(const UserRequest& request) {
+  constexpr const char* kKeys[] = {"soft",           "hard",           "fixed",
+                                   "mobile",         "diameter 10 mm", "diameter 15 mm",
+                                   "diameter 20 mm", "diameter 25 mm"};
+  const std::string& said = request.reason;
+  if (request.command == UserCommand::grade) return gradeOf(said);
+  if (request.command != UserCommand::choose || said.size() != 1 || said[0] < '1' || said[0] > '8')
+    return {};
+  return gradeOf(kKeys[said[0] - '1']);
+}
+
 }  // namespace palpa::trial

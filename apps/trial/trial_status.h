@@ -47,11 +47,13 @@ enum class UserCommand : std::uint8_t {
   quit,
   done,
   grade,
+  choose,
   note
 };
 struct UserRequest {
   UserCommand command = UserCommand::start;
-  /// Of a void; of a grade: what was said, as the task writes it down; of a note: its text
+  /// Of a void; of a grade: what was said, as the task writes it down; of a choice: the key, "1" to
+  /// "8"; of a note: its text
   std::string reason;
   double at_s = 0;  ///< of a note: the session time it is about
 };
@@ -79,5 +81,8 @@ struct Grade {
   int hardness = 0, mobility = 0;
 };
 Grade gradeOf(const std::string& text);
+/// Of a request: grades in words, or with a key: 1 soft, 2 hard, 3 fixed, 4 mobile, 5 to 8 a
+/// diameter of 10, 15, 20, 25 mm. Nothing of any other.
+Grade gradeOf(const UserRequest& request);
 
 }  // namespace palpa::trial

@@ -226,6 +226,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       return report(now_ns, EventKind::note, reason, request.at_s);
     case UserCommand::done:
     case UserCommand::grade:
+    case UserCommand::choose:
       if (status_.active()) receive(request, now_ns);
       return;
   }

@@ -19,13 +19,14 @@ class Hand {
     /// of the fingers on the tool: without what moves the hand itself
     Vec3 f_fingers_D = Vec3::Zero();
   };
-  /// What is said; grade: of the lump marked last.
-  enum class WordKind { none, gives_up, done, grade };
+  /// What is said; grade: of the lump marked last; chooses: of what the screen asks.
+  enum class WordKind { none, gives_up, done, grade, chooses };
   /// What whoever leads the hand says, once.
   struct Word {
     WordKind kind = WordKind::none;
     double diameter = 0;             ///< m; of a grade: of the lump marked last
     int hardness = 0, mobility = 0;  ///< 1 soft, 2 hard; 1 fixed, 2 mobile; 0: not said
+    int choice = 0;                  ///< 1, 2, ...
   };
   struct Action {
     Pose X_DH = Pose::Identity();  ///< where the hand wants the tool

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "anatomy/base/random.h"
+#include "anatomy/geometry/local_geometry.h"
 #include "anatomy/geometry/pose.h"
 
 namespace palpa::twin {
@@ -49,25 +50,35 @@ class Reaction {
     felt_.fill(Vec3::Zero());  // Eigen's own vectors start with anything
   }
 
-  /// One step: the force on the hand, and what the screen shows.
-  void perceive(const Vec3& f_A, bool blood_flows, bool injury) {
+  /// What the screen shows.
+  struct Sight {
+    Tissue flows = Tissue::air;  ///< whose blood or air enters the syringe
+    bool injury = false;         ///< it says that something is hurt
+    bool asks = false;           ///< it asks what is aspirated
+  };
+
+  /// One step: the force on the hand, and what is seen.
+  void perceive(const Vec3& f_A, const Sight& sight) {
     const std::size_t slot = count_ % felt_.size(),
                       before = (count_ + felt_.size() - 1) % felt_.size();
     felt_[slot] = 0.7 * felt_[before] + 0.3 * f_A;  // touch is not sharper than about 25 ms
-    flow_[slot] = blood_flows;
-    injury_[slot] = injury;
+    sight_[slot] = sight;
     ++count_;
   }
   const Vec3& felt() const { return felt_[answered()]; }  ///< frame A, N
-  bool bloodFlows() const { return flow_[answered()]; }
-  bool injury() const { return injury_[answered()]; }
+  const Sight& seen() const { return sight_[answered()]; }
+  bool bloodFlows() const { return seen().flows == Tissue::vein_lumen; }  ///< dark, steadily
+  /// Said, or seen in the syringe.
+  bool injury() const {
+    return seen().injury || seen().flows == Tissue::artery_lumen || seen().flows == Tissue::lung;
+  }
 
  private:
   std::size_t answered() const { return (count_ + felt_.size() - 1 - delay_) % felt_.size(); }
 
   std::size_t delay_, count_ = 0;
   std::array<Vec3, 64> felt_;
-  std::array<bool, 64> flow_{}, injury_{};
+  std::array<Sight, 64> sight_{};
 };
 
 /// What fingers notice of a handle that shakes in them. Of its velocity against what the hand

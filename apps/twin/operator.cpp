@@ -64,8 +64,11 @@ void Operator::look(const Senses& senses) {
 }
 
 void Operator::feel(const Senses& senses) {
-  reaction_.perceive(bearings_.X_DA().rotation().transpose() * senses.f_grip_D,
-                     senses.seen && senses.seen->blood_flows, senses.seen && senses.seen->injury);
+  Reaction::Sight sight;
+  if (senses.seen)
+    sight = {senses.seen->flows, senses.seen->injury,
+             senses.seen->question == runtime::Displayed::Question::aspirated};
+  reaction_.perceive(bearings_.X_DA().rotation().transpose() * senses.f_grip_D, sight);
 }
 
 void Operator::begin(NeedleStep step, double now_s, double pause_s) {
@@ -108,11 +111,11 @@ void Operator::moveTo(const Pose& X_AT, double now_s, double speed) {
 }
 
 /// By the landmarks, as well as one can judge; experts lean toward the clavicle and let it guide
-/// them.
+/// them, but not where the skin could not be felt: a bone that is not felt guides nobody.
 Vec3 Operator::firstAim() {
   const Vec3 aim = (anatomy_.aim_A - entry_seen_A_).normalized();
   const Vec3 to_bone = (anatomy_.cephalad_A - anatomy_.posterior_A).normalized();
-  return (aim + std::tan(skill_.guide) * to_bone +
+  return (aim + (feels_ ? std::tan(skill_.guide) : 0) * to_bone +
           skill_.direction_sd * (judgement_.normal() * anatomy_.posterior_A +
                                  judgement_.normal() * anatomy_.cephalad_A))
       .normalized();
@@ -140,6 +143,7 @@ void Operator::pushing(double now_s) {
   const bool lost = peak_N_ > skill_.notice_puncture_N && resistance < kFirstGrip * peak_N_;
   const bool deep = seenInsertion() >= skill_.first_depth;
   if (lost || deep || insertion_ > kDeepestPush) {
+    feels_ = peak_N_ > skill_.notice_puncture_N;
     holdHere();
     begin(NeedleStep::settle, now_s, skill_.pause);
   }
@@ -225,8 +229,17 @@ void Operator::think(const Senses& senses) {
   if (running_ && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
   if (!running_ && step_ != NeedleStep::rest && step_ != NeedleStep::leave)
     return begin(NeedleStep::leave, now_s, skill_.pause);
+  if (!reaction_.seen().asks) told_ = false;
   if (now_s < ready_s_) return;
   step(now_s);
+}
+
+/// Once for each question: what the blood in the syringe looks like says whose it is.
+int Operator::tells() {
+  const Reaction::Sight& seen = reaction_.seen();
+  if (told_ || !seen.asks) return 0;
+  told_ = true;
+  return seen.flows == Tissue::vein_lumen ? 1 : seen.flows == Tissue::artery_lumen ? 2 : 3;
 }
 
 void Operator::step(double now_s) {
@@ -316,6 +329,10 @@ Operator::Action Operator::act(const Senses& senses, double dt) {
   X_AT.linear() = X_AT.linear() * Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
   X_DH_ = bearings_.X_DA() * X_AT * X_TE_;
   Action action{X_DH_, plunger_, 0, {}};
+  if (const int choice = tells(); choice > 0) {
+    action.says.kind = WordKind::chooses;
+    action.says.choice = choice;
+  }
   if (gives_up_) action.says.kind = WordKind::gives_up;
   gives_up_ = false;
   return action;

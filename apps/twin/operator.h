@@ -87,6 +87,7 @@ class Operator final : public Hand {
     leave
   };
 
+  int tells();
   void look(const Senses& senses);
   void feel(const Senses& senses);
   void think(const Senses& senses);
@@ -121,6 +122,8 @@ class Operator final : public Hand {
   Reaction reaction_;
   double peak_N_ = 0;
   double depth_error_ = 0;
+  bool told_ = false;  ///< what is aspirated, since the screen asked
+  bool feels_ = true;  ///< the skin resisted: what is touched will be felt
 
   // What he is doing.
   NeedleStep step_ = NeedleStep::rest;

@@ -103,6 +103,17 @@ vtkSmartPointer<vtkPolyData> bloodShape(const InstrumentSize& size) {
   return builder.mesh();
 }
 
+vtkSmartPointer<vtkPolyData> bubblesShape(const InstrumentSize& size) {
+  constexpr double kBehind[] = {0.003, 0.008, 0.0105, 0.016};  // m from the bore's front
+  constexpr double kRadius[] = {0.0026, 0.0018, 0.0034, 0.0024};
+  const double rises = 0.5 * size.bore_radius;
+  MeshBuilder builder;
+  for (std::size_t i = 0; i < std::size(kBehind); ++i)
+    builder.ball(kRadius[i], colour::kAir, 12,
+                 Vec3((i % 2 ? 0.4 : -0.3) * rises, rises, size.barrel_front - kBehind[i]));
+  return builder.mesh();
+}
+
 vtkSmartPointer<vtkPolyData> probeShape(const ProbeSize& size) {
   const double r = size.tip_radius, shaft = size.shaft_radius, handle = size.handle_radius;
   const double neck = -1.6 * r, end = size.handle_end;
@@ -157,24 +168,34 @@ Instrument::Instrument(vtkRenderer& renderer) {
   dress(*barrel_, barrelShape(size_), 0.6);
   dress(*plunger_, plungerShape(size_), 0.2);
   dress(*blood_, bloodShape(size_), 0.3);
+  blood_->GetMapper()->ScalarVisibilityOff();  // whose it is says the actor's colour
+  dress(*bubbles_, bubblesShape(size_), 0.8);
   dress(*probe_, probeShape({}), 0.35);
   barrel_->GetProperty()->SetOpacity(0.28);
   needle_->GetProperty()->SetLineWidth(1.5);
   needle_->SetUserMatrix(X_AT_);
   barrel_->SetUserMatrix(X_AT_);
+  bubbles_->SetUserMatrix(X_AT_);
   probe_->SetUserMatrix(X_AT_);
   plunger_->SetUserMatrix(X_A_plunger_);
   blood_->SetUserMatrix(X_A_blood_);
-  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), blood_.Get(), probe_.Get(), barrel_.Get()})
-    renderer.AddActor(actor);
+  for (vtkActor* actor : actors()) renderer.AddActor(actor);
 }
 
 Instrument::~Instrument() = default;
 
-void Instrument::update(const Pose& X_AT, double plunger, double blood) {
+/// The clear barrel last.
+std::array<vtkActor*, 6> Instrument::actors() const {
+  return {needle_, plunger_, blood_, bubbles_, probe_, barrel_};
+}
+
+void Instrument::update(const Pose& X_AT, double plunger, double blood, Tissue of) {
   const double drawn = std::clamp(plunger, 0.0, 1.0) * size_.stroke;
   const double column = std::min(std::clamp(blood, 0.0, 1.0) * size_.stroke, drawn);
   has_blood_ = column > 1e-4;
+  has_bubbles_ = of == Tissue::lung;
+  const Rgb& colour = of == Tissue::artery_lumen ? colour::kArterialBlood : colour::kBlood;
+  blood_->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
   copy(X_AT, *X_AT_);
   copy(shifted(X_AT, -drawn), *X_A_plunger_);
   copy(shifted(X_AT, size_.barrel_front), *X_A_blood_);
@@ -187,12 +208,12 @@ void Instrument::show(Tool tool) {
   for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get()})
     actor->SetVisibility(needle);
   blood_->SetVisibility(needle && has_blood_);
+  bubbles_->SetVisibility(needle && has_bubbles_);
   probe_->SetVisibility(tool == Tool::probe);
 }
 
 void Instrument::hide() {
-  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get(), blood_.Get(), probe_.Get()})
-    actor->VisibilityOff();
+  for (vtkActor* actor : actors()) actor->VisibilityOff();
 }
 
 InstrumentSilhouette::InstrumentSilhouette(vtkRenderer& renderer) {

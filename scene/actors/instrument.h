@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
@@ -41,8 +43,10 @@ vtkSmartPointer<vtkPolyData> needleShape(
     const InstrumentSize& size);  ///< needle, hub, nozzle, scale
 vtkSmartPointer<vtkPolyData> barrelShape(const InstrumentSize& size);   ///< the clear tube
 vtkSmartPointer<vtkPolyData> plungerShape(const InstrumentSize& size);  ///< pushed home
-vtkSmartPointer<vtkPolyData> bloodShape(
-    const InstrumentSize& size);  ///< 1 m long, from z = 0 to -1
+/// 1 m long, from z = 0 to -1; white, for the actor's colour to say whose it is
+vtkSmartPointer<vtkPolyData> bloodShape(const InstrumentSize& size);
+vtkSmartPointer<vtkPolyData> bubblesShape(
+    const InstrumentSize& size);  ///< in the front of the bore, at its top
 vtkSmartPointer<vtkPolyData> silhouetteShape(
     const InstrumentSize& size);  ///< plain, for small views
 
@@ -64,16 +68,18 @@ class Instrument {
   ~Instrument();
 
   /// `plunger` and `blood` are fractions of the stroke, held to 0..1; blood cannot be more than the
-  /// plunger has drawn.
-  void update(const Pose& X_AT, double plunger, double blood);
+  /// plunger has drawn. `of`: whose (SceneState::blood_of).
+  void update(const Pose& X_AT, double plunger, double blood, Tissue of);
   void show(Tool tool);
   void hide();
 
  private:
+  std::array<vtkActor*, 6> actors() const;
+
   InstrumentSize size_;
-  vtkNew<vtkActor> needle_, barrel_, plunger_, blood_, probe_;
+  vtkNew<vtkActor> needle_, barrel_, plunger_, blood_, bubbles_, probe_;
   vtkNew<vtkMatrix4x4> X_AT_, X_A_plunger_, X_A_blood_;
-  bool has_blood_ = false;
+  bool has_blood_ = false, has_bubbles_ = false;
 };
 
 /// The same, reduced to what can be read in a small view.

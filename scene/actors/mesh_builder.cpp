@@ -88,8 +88,8 @@ void MeshBuilder::dome(double radius, double z, const Rgb& colour, int sides) {
   cap(radius, Vec3(0, 0, z - radius), std::numbers::pi / 2, colour, sides, sides / 3);
 }
 
-void MeshBuilder::ball(double radius, const Rgb& colour, int sides) {
-  cap(radius, Vec3::Zero(), std::numbers::pi, colour, sides, sides / 2);
+void MeshBuilder::ball(double radius, const Rgb& colour, int sides, const Vec3& centre) {
+  cap(radius, centre, std::numbers::pi, colour, sides, sides / 2);
 }
 
 void MeshBuilder::arc(double r, double z, double middle, double half_angle, const Rgb& colour) {

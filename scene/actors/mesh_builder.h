@@ -29,8 +29,8 @@ class MeshBuilder {
   void turn(std::initializer_list<ProfilePoint> profile, const Rgb& colour, int sides = 24);
   /// A half-sphere about the z axis, its foremost point at (0, 0, z), opening toward -z; smooth.
   void dome(double radius, double z, const Rgb& colour, int sides = 24);
-  /// A sphere about the origin; smooth.
-  void ball(double radius, const Rgb& colour, int sides = 24);
+  /// A sphere; smooth.
+  void ball(double radius, const Rgb& colour, int sides = 24, const Vec3& centre = Vec3::Zero());
   /// An arc about the z axis, in front (centred on angle `middle`).
   void arc(double r, double z, double middle, double half_angle, const Rgb& colour);
   void triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Rgb& colour);

@@ -229,12 +229,12 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   organs_.setStyle(state.skin);
   organs_.setVisible(visible);
   organs_.setPose(state.X_AB);
-  other_probe_.update(state.second_X_AT.value_or(state.X_AT), 0, 0);
+  other_probe_.update(state.second_X_AT.value_or(state.X_AT), 0, 0, Tissue::air);
   if (visible && state.second_X_AT)
     other_probe_.show(Tool::probe);
   else
     other_probe_.hide();
-  instrument_.update(state.X_AT, state.plunger, state.blood);
+  instrument_.update(state.X_AT, state.plunger, state.blood, state.blood_of);
   if (visible && state.show_tool)
     instrument_.show(state.tool);
   else

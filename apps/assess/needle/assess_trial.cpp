@@ -39,9 +39,12 @@ TrialAssessment assessTrial(const TrialFacts& facts, const std::vector<TrialSamp
   const anatomy::LandmarkFrame frame(patient);
   const TrialReview r = review(facts, samples, frame, distance, path, rules);
   TrialAssessment a = headed(facts);
+  a.rules = rules.version;
   a.values = r.values;
   a.total = total(r.values, rules.weights);
   a.penalties = explain(r, path, rules);
+  if (!r.has_lung) a.not_judged.push_back(name(Organ::lung));
+  if (!r.has_artery) a.not_judged.push_back(name(Organ::artery));
   a.summary = summarise(facts, r, a.penalties);
   a.spans = timelineSpans(r, rules);
   a.moments = timelineMoments(facts, r, rules);

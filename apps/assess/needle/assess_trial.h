@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "anatomy/patient.h"
@@ -26,15 +27,25 @@ struct ErrorRules {
   double blood_s = 0.2;          ///< plunger drawn in the lumen: the vein was reached
 };
 
+/// The newest scoring rules, by which a trial is scored unless its task says otherwise.
+inline constexpr char kNewestRules[] = "2";
+/// Those of the source: one path, steps in a weight, scoring samples.
+inline constexpr char kPublishedRules[] = "as published";
+
 /// Settings that are ours, where Tzafestas et al. 2008 are silent. Every figure can be set in the
 /// task's file.
 struct ScoringRules {
+  /// Scores under different ones are not compared. "1": of tasks written before rules had names.
+  std::string version = "1";
   double sample_rate_Hz = 20;  ///< COL_* counts samples at this rate
   /// contact with the clavicle below this guides, and is not counted
   double clavicle_guide_N = 3.0;
   double dwell_s = 1.0;         ///< tip in the lumen with the plunger drawn this long: success
   double plunger_drawn = 0.25;  ///< fraction that counts as drawn
   double shaft_point = 0.070;   ///< m behind the tip, second point of ECON
+  BoneUnit bone_unit = BoneUnit::samples;
+  /// s: so soon after `dwell_s` it must be said what was aspirated; 0: nobody asks
+  double told_within_s = 0;
   ScoreWeights weights;
   ErrorRules errors;
 };

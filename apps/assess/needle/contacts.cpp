@@ -63,15 +63,32 @@ FinalStay finalStay(Samples samples) {
   return stay;
 }
 
+namespace {
+
+bool strikesBone(const TrialSample& s, const ScoringRules& rules) {
+  return touchesRibcage(s) || strikesClavicle(s, rules);
+}
+
+int boneContacts(Samples samples, const ScoringRules& rules) {
+  int count = 0;
+  for (const Interval& contact :
+       intervals(samples, [&](const TrialSample& s) { return strikesBone(s, rules); }))
+    count += 1 + static_cast<int>(contact.held_s + 1e-9);
+  return count;
+}
+
+}  // namespace
+
 CollisionCounts countCollisions(Samples samples, const FinalStay& stay, const ScoringRules& rules) {
   CollisionCounts counts;
   for (const std::size_t i : scoringSamples(samples, rules.sample_rate_Hz)) {
     const TrialSample& s = samples[i];
     counts.lung += touchesLung(s);
-    counts.rib += touchesRibcage(s) || strikesClavicle(s, rules);
+    counts.rib += strikesBone(s, rules);
     counts.artery += touchesArtery(s);
     counts.vein += touchesVein(s) && (!stay.covers(i) || touchesBackWall(s));
   }
+  if (rules.bone_unit == BoneUnit::contacts) counts.rib = boneContacts(samples, rules);
   return counts;
 }
 

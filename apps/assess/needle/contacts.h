@@ -40,7 +40,7 @@ struct CollisionCounts {
   int lung = 0, rib = 0, artery = 0, vein = 0;
 };
 
-/// Scoring samples in contact. `stay` is where contact with the vein is wanted (not found:
+/// Scoring samples in contact; of bone in the rules' unit. `stay` is where contact with the vein is wanted (not found:
 /// nowhere); its back wall counts everywhere.
 CollisionCounts countCollisions(Samples samples, const FinalStay& stay, const ScoringRules& rules);
 

@@ -8,13 +8,19 @@ namespace {
 constexpr double kSayAngle = 0.5 * M_PI / 180;  // smaller parts of a deviation are not named
 constexpr double kNotTurned = 45 * M_PI / 180;  // beyond this "too steep" is no longer the point
 
+/// " (experts vary by 3.1 mm)"; empty where the path does not say it.
+std::string expertsVary(double acceptable) {
+  return acceptable > 0 ? " (experts vary by " + millimetres(acceptable) + ")" : "";
+}
+
 std::string depthWords(const TrialReview& r, const calibration::TaughtPath& path) {
   const double depth = path.depth + r.entry.depth_error;
   const double off = r.entry.depth_error;
   const std::string done = r.pass->reoriented ? "; turned at a depth of " + millimetres(depth)
                                               : "; not turned before " + millimetres(depth);
   if (std::abs(off) < 0.0005) return done + ", as taught";
-  return done + ", " + millimetres(std::abs(off)) + (off > 0 ? " too deep" : " too shallow");
+  return done + ", " + millimetres(std::abs(off)) + (off > 0 ? " too deep" : " too shallow") +
+         expertsVary(path.depth_acceptable);
 }
 
 Penalty entry(const TrialReview& r, const calibration::TaughtPath& path,
@@ -25,14 +31,16 @@ Penalty entry(const TrialReview& r, const calibration::TaughtPath& path,
             r.values.phase_1,
             rules.weights.phase_1,
             rules.weights.phase_1 * r.values.phase_1,
-            {}};
+            {},
+            "mm"};
   if (!r.entry.punctured) {
     p.sentence = "The skin was not punctured; judged by the last place of the tip" +
                  offsetWords(r.entry.offset_L) + " and the whole depth.";
     return p;
   }
   p.sentence = "Entry " + millimetres(r.entry.offset_L.norm()) + " from the optimal point" +
-               offsetWords(r.entry.offset_L) + depthWords(r, path) + ".";
+               offsetWords(r.entry.offset_L) + expertsVary(path.entry_acceptable) +
+               depthWords(r, path) + ".";
   p.moments_s = {r.pass->puncture.t_s};
   return p;
 }
@@ -76,21 +84,24 @@ Penalty direction(const TrialReview& r, const calibration::TaughtPath& path,
 
 bool hasEconomy(const TrialReview& r) { return r.pass && r.pass->advanced; }
 
-Penalty economyMean(const TrialReview& r, const ScoringRules& rules) {
+Penalty economyMean(const TrialReview& r, const calibration::TaughtPath& path,
+                    const ScoringRules& rules) {
   Penalty p{"ECON_MEAN",
             "Distance from the taught line",
             "Phase 2 was not reached.",
             r.values.econ_mean,
             rules.weights.econ_mean,
             rules.weights.econ_mean * r.values.econ_mean,
-            {}};
+            {},
+            "mm"};
   if (!hasEconomy(r)) return p;
   if (r.economy.largest_mm < 1) {
     p.sentence = "In phase 2 tip and shaft kept to the taught line within a millimetre.";
     return p;
   }
   p.sentence = "In phase 2 tip and shaft were " + millimetres(r.economy.mean_mm / 1000) +
-               " from the taught line on average, at most " +
+               " from the taught line on average" +
+               expertsVary(path.line_acceptable) + ", at most " +
                millimetres(r.economy.largest_mm / 1000) + " at " + seconds(r.economy.largest_s) +
                ".";
   p.moments_s = {r.economy.largest_s};
@@ -108,7 +119,8 @@ Penalty economyVariance(const TrialReview& r, const ScoringRules& rules) {
             r.values.econ_var,
             rules.weights.econ_var,
             rules.weights.econ_var * r.values.econ_var,
-            {}};
+            {},
+            "mm²"};
   if (!hasEconomy(r)) return p;
   const double sd = std::sqrt(r.values.econ_var) / 1000;
   const std::string varied = "That distance varied by " + millimetres(sd) + " (standard deviation)";
@@ -119,7 +131,7 @@ Penalty economyVariance(const TrialReview& r, const ScoringRules& rules) {
 }
 
 Penalty time(const TrialReview& r, const ScoringRules& rules) {
-  const std::string took = seconds(r.end_s);
+  const std::string took = seconds(r.time_s());
   return {"TIME",
           "Time",
           r.success ? "Blood aspirated after " + took + "."
@@ -127,14 +139,15 @@ Penalty time(const TrialReview& r, const ScoringRules& rules) {
           r.values.time_ms,
           rules.weights.time,
           rules.weights.time * r.values.time_ms,
-          {}};
+          {},
+          "ms"};
 }
 
 }  // namespace
 
 std::vector<Penalty> explainPath(const TrialReview& r, const calibration::TaughtPath& path,
                                  const ScoringRules& rules) {
-  return {entry(r, path, rules), direction(r, path, rules), economyMean(r, rules),
+  return {entry(r, path, rules), direction(r, path, rules), economyMean(r, path, rules),
           economyVariance(r, rules), time(r, rules)};
 }
 

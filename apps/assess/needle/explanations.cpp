@@ -11,8 +11,9 @@ using training::Outcome;
 namespace {
 
 Penalty line(const char* code, const char* title, double value, double weight, std::string sentence,
-             const std::vector<Interval>& stretches) {
-  return {code, title, std::move(sentence), value, weight, weight * value, startsOf(stretches)};
+             const std::vector<Interval>& stretches, const char* unit = "samples") {
+  return {code,           title,          std::move(sentence), value, weight,
+          weight * value, startsOf(stretches), unit};
 }
 
 std::vector<Interval> inOrder(std::vector<Interval> a, const std::vector<Interval>& b) {
@@ -72,7 +73,8 @@ Penalty bone(const TrialReview& r, const ScoringRules& rules) {
   const bool clean = sentence.empty();
   return line("COL_RIB", clean ? "Bone spared" : "Bone struck", r.values.col_rib, rules.weights.rib,
               clean ? guidance(r) : sentence + tooShort(r.values.col_rib),
-              inOrder(r.ribcage, r.clavicle_struck));
+              inOrder(r.ribcage, r.clavicle_struck),
+              rules.bone_unit == BoneUnit::samples ? "samples" : "contacts");
 }
 
 Penalty artery(const TrialReview& r, const ScoringRules& rules) {
@@ -108,7 +110,12 @@ Penalty vein(const TrialReview& r, const ScoringRules& rules) {
 }  // namespace
 
 std::vector<Penalty> explainCollisions(const TrialReview& r, const ScoringRules& rules) {
-  return {lung(r, rules), bone(r, rules), artery(r, rules), vein(r, rules)};
+  std::vector<Penalty> lines;
+  if (r.has_lung) lines.push_back(lung(r, rules));
+  lines.push_back(bone(r, rules));
+  if (r.has_artery) lines.push_back(artery(r, rules));
+  lines.push_back(vein(r, rules));
+  return lines;
 }
 
 namespace {
@@ -130,7 +137,9 @@ std::string injuries(const TrialReview& r) {
 }
 
 std::string outcomeWords(const TrialFacts& facts, const TrialReview& r) {
-  if (r.success) return "Vein reached in " + seconds(r.end_s);
+  if (r.success) return "Vein reached in " + seconds(r.time_s());
+  if (facts.outcome == Outcome::mistaken)
+    return "What was aspirated was not recognised, after " + seconds(r.end_s);
   if (facts.outcome == Outcome::time) return "Vein not reached within " + seconds(r.end_s);
   if (facts.outcome == Outcome::passes)
     return "Vein not reached when a pass too many began, after " + seconds(r.end_s);

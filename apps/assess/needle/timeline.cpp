@@ -102,6 +102,8 @@ Moment ending(const TrialFacts& facts, const TrialReview& r) {
   if (facts.outcome == Outcome::time) return {r.end_s, "time", "Time is over"};
   if (facts.outcome == Outcome::passes)
     return {r.end_s, "aborted", "A pass too many: the trial ends"};
+  if (facts.outcome == Outcome::mistaken)
+    return {r.end_s, "aborted", "What was aspirated was not recognised: the trial ends"};
   if (facts.outcome == Outcome::voided) return {r.end_s, "void", "Trial declared void"};
   return {r.end_s, "end", "Trial ended"};
 }

@@ -29,6 +29,7 @@ struct TrialSample {
   double f_contact = 0;       ///< N, magnitude computed
   double f_command = 0;       ///< N, magnitude rendered
   double plunger = 0;
+  bool waiting = false;        ///< for the answer what was aspirated: not in TIME
   std::uint32_t events = 0;    ///< haptics::TickEvent bits, merged over the samples left out
   std::uint32_t subtasks = 0;  ///< bit i: part i of the task is on
 };
@@ -42,6 +43,7 @@ struct Penalty {
   double weight = 0;
   double points = 0;              ///< weight x value
   std::vector<double> moments_s;  ///< when it happened (starts of the spans); may be empty
+  std::string unit = {};          ///< of the value
 };
 
 /// One of the six common errors of subclavian access that was made.
@@ -81,9 +83,12 @@ struct TrialAssessment {
   std::uint64_t seed = 0;
   training::Outcome outcome = training::Outcome::none;
   std::string summary;  ///< one or two plain sentences
+  std::string rules;  ///< their version
   ParacentesisValues values;
   double total = 0;
   std::vector<Penalty> penalties;
+  /// "lung", "artery": what the patient's model lacks, so that no line of the score is about it
+  std::vector<std::string> not_judged = {};
   std::vector<TechnicalError> errors = {};  ///< in the order of the procedure
   std::vector<Span> spans;
   std::vector<Moment> moments;

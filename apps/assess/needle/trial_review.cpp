@@ -145,7 +145,7 @@ ParacentesisValues valuesOf(const TrialReview& r, const ScoringRules& rules) {
   v.phase_2 = r.direction.value;
   v.econ_mean = r.economy.mean_mm;
   v.econ_var = r.economy.variance_mm2;
-  v.time_ms = 1000 * r.end_s;
+  v.time_ms = 1000 * r.time_s();
   v.success = r.success;
   return v;
 }
@@ -159,8 +159,12 @@ TrialReview review(const TrialFacts& facts, Samples all, const anatomy::Landmark
   checkScale(path, rules);
   TrialReview r;
   r.success = facts.outcome == training::Outcome::success && !all.empty();
+  r.has_lung = std::isfinite(distance(Organ::lung, Vec3::Zero()));
+  r.has_artery = std::isfinite(distance(Organ::artery, Vec3::Zero()));
   r.samples = r.success ? all.first(successSample(all, rules) + 1) : all;
   r.end_s = r.samples.empty() ? 0 : r.samples.back().t_s;
+  r.asked = std::any_of(all.begin(), all.end(), [](const TrialSample& s) { return s.waiting; });
+  r.waited_s = heldTime(intervals(r.samples, [](const TrialSample& s) { return s.waiting; }, 0));
   r.history = detectPhases(r.samples);
   r.pass = scoredPass(r.history.passes, r.success);
   if (r.success) r.stay = finalStay(r.samples);

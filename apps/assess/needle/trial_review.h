@@ -58,6 +58,9 @@ struct TrialReview {
 
   Samples samples;   ///< up to the end that is scored
   double end_s = 0;  ///< moment of success, else the last sample
+  bool asked = false;   ///< what was aspirated
+  double waited_s = 0;  ///< until then, for an answer: not in TIME
+  double time_s() const { return end_s - waited_s; }
   bool success = false;
   PhaseHistory history;
   const Pass* pass = nullptr;  ///< the scored one, in `history`; null: never punctured
@@ -66,6 +69,7 @@ struct TrialReview {
   std::vector<double> entry_distances;  ///< of every pass from the optimal entry, m
   DirectionError direction;
   Economy economy;
+  bool has_lung = true, has_artery = true;  ///< the patient
   std::vector<Interval> lung_touched, lung, artery, ribcage, clavicle, clavicle_struck;
   std::vector<Interval> vein_unneeded, vein_lumen, back_wall;
   ClosestApproach pleura_miss, artery_miss;

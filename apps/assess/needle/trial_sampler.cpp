@@ -33,6 +33,7 @@ bool TrialSampler::add(const haptics::FlightRecord& record, TrialSample* sample)
   sample->f_contact = unpack(record.f_contact_D).norm();
   sample->f_command = unpack(record.f_command_D).norm();
   sample->plunger = record.reading.plunger;
+  sample->waiting = record.commands.asked != 0;
   sample->events = record.events | pending_events_;
   pending_events_ = 0;
   sample->subtasks = record.subtasks;

@@ -25,7 +25,8 @@ std::string offsetWords(const Vec3& offset_L);
 std::string list(const std::vector<std::string>& parts);
 
 /// The nine lines of the score, in the order of Tzafestas et al. 2008, each with its reason in
-/// clinical words. A line without penalty says briefly what was right.
+/// clinical words. A line without penalty says briefly what was right; of an organ that the patient
+/// lacks there is none.
 std::vector<Penalty> explain(const TrialReview& review, const calibration::TaughtPath& path,
                              const ScoringRules& rules);
 

@@ -102,14 +102,30 @@ std::vector<ErrorCount> errorsIn(const Series& series) {
   return counts;
 }
 
-std::vector<Cost> costsLately(const Series& series, const assess::ScoreWeights& w) {
+namespace {
+
+/// The usual weights, as published or continuous: those that give the trial's total.
+std::optional<assess::ScoreWeights> weightsOf(const PracticeTrial& trial) {
+  for (const auto phase_2 : {assess::Phase2Weight::continuous, assess::Phase2Weight::steps}) {
+    assess::ScoreWeights weights;
+    weights.phase_2 = phase_2;
+    if (weighsLikeThat(trial, weights)) return weights;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Cost> costsLately(const Series& series) {
   std::vector<Cost> costs{{"col_lung"},     {"col_rib"},      {"col_artery"},
                           {"col_vein"},     {"phase_1_mm"},   {"phase_2"},
                           {"econ_mean_mm"}, {"econ_var_mm2"}, {"time_s"}};
   const std::size_t n = std::min(series.trials.size(), kLately);
   for (std::size_t i = series.trials.size() - n; i < series.trials.size(); ++i) {
     const PracticeTrial& trial = series.trials[i];
-    if (!weighsLikeThat(trial, w)) return {};
+    const std::optional<assess::ScoreWeights> usual = weightsOf(trial);
+    if (!usual) return {};
+    const assess::ScoreWeights& w = *usual;
     const assess::ParacentesisValues v = valuesOf(trial);
     const double points[] = {
         w.lung * v.col_lung,       w.rib * v.col_rib,       w.artery * v.col_art,

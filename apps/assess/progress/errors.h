@@ -39,7 +39,7 @@ struct Cost {
 };
 /// Means over the last five trials, the dearest first, nothing that costs nothing. Empty where
 /// these weights do not add up to the recorded totals: the task weighs otherwise.
-std::vector<Cost> costsLately(const Series& series, const assess::ScoreWeights& weights = {});
+std::vector<Cost> costsLately(const Series& series);
 
 /// The nearest miss: the smallest distance that was kept from lung or artery without touching it.
 struct NearestMiss {

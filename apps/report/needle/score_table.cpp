@@ -24,7 +24,7 @@ std::string momentsText(const std::vector<double>& moments_s) {
 
 std::string valueText(const assess::Penalty& penalty) {
   const double size = std::fabs(finiteOrZero(penalty.value));
-  const std::string unit(unitOf(penalty.code));
+  const std::string& unit = penalty.unit;
   return trimmed(penalty.value, size >= 1000  ? 0
                                 : size >= 100 ? 1
                                               : 2) +
@@ -63,6 +63,13 @@ void writeRow(Html& html, const assess::Penalty& penalty, double most) {
   writePoints(html, penalty, most);
 }
 
+/// "; without lung and artery, which this patient's model lacks"
+std::string withoutWords(const std::vector<std::string>& organs) {
+  std::string words;
+  for (const std::string& organ : organs) words += (words.empty() ? "" : " and ") + organ;
+  return words.empty() ? "" : "; without " + words + ", which this patient's model lacks";
+}
+
 void writeHead(Html& html) {
   const auto head = html.in("thead");
   const auto row = html.in("tr");
@@ -94,7 +101,7 @@ void writeScoreTable(Html& html, const assess::TrialAssessment& assessment) {
   }
   const auto foot = html.in("tfoot");
   const auto row = html.in("tr");
-  html.element("td", "Total penalty (lower is better)");
+  html.element("td", "Total penalty (lower is better)" + withoutWords(assessment.not_judged));
   html.element("td", {{"class", "sum"}}, "");
   const auto cell = html.in("td", {{"class", "points"}});
   html.element("strong", fixed(assessment.total, 1));
@@ -103,38 +110,32 @@ void writeScoreTable(Html& html, const assess::TrialAssessment& assessment) {
 namespace {
 
 constexpr Code kCodes[] = {
-    {"COL_LUNG", "samples",
+    {"COL_LUNG",
      "Scoring samples, 20 a second, in which the needle was in contact with the lung."},
-    {"COL_RIB", "samples",
-     "The same for ribs and skeleton. Touching the clavicle lightly to find the way beneath it "
-     "does "
-     "not count."},
-    {"COL_ART", "samples", "The same for arteries."},
-    {"COL_VEIN", "samples",
+    {"COL_RIB",
+     "Contacts with ribs and skeleton, each counted again for every full second that it lasts; "
+     "scored as published, samples as above. Touching the clavicle lightly to find the way beneath "
+     "it does not count."},
+    {"COL_ART", "The same for arteries."},
+    {"COL_VEIN",
      "Contact with the vein other than the successful entry and aspiration; its back wall always "
      "counts."},
-    {"PHASE_1", "mm",
+    {"PHASE_1",
      "Insertion: distance of the entry point from the optimum, plus the error in depth before the "
      "needle is turned."},
-    {"PHASE_2", "",
+    {"PHASE_2",
      "Direction: deviation of the turned needle from the optimum. 1000 is the edge of what is "
-     "acceptable; below it nothing is charged."},
-    {"ECON_MEAN", "mm",
+     "acceptable; below it nothing is charged. The weight rises from there to 2000; scored as "
+     "published, it jumps at both."},
+    {"ECON_MEAN",
      "Economy of movement: mean distance of the needle from the optimal line while it is "
      "advanced."},
-    {"ECON_VAR", "mm²",
+    {"ECON_VAR",
      "Economy of movement: variance of that distance; a steady hand has little."},
-    {"TIME", "ms", "From the start of the trial to its end."},
-    {"TOTAL", "points", "Sum of weight × value over all of the above. Lower is better."}};
+    {"TIME", "From the start of the trial to its end."},
+    {"TOTAL", "Sum of weight × value over all of the above. Lower is better."}};
 
 }  // namespace
-
-std::string_view unitOf(const std::string& code) {
-  for (const Code& entry : kCodes) {
-    if (entry.code == code) return entry.unit;
-  }
-  return "";
-}
 
 void writeGlossary(Html& html) {
   html.element("h2", "What these numbers mean");

@@ -112,7 +112,7 @@ namespace {
 
 constexpr const char* kHeader =
     "USER_ID,FF,COL_LUNG,COL_RIB,COL_ART,COL_VEIN,PHASE_1,PHASE_2,ECON_MEAN,ECON_VAR,TIME,SUCCESS,"
-    "TRIAL,SEED,SIMULATED,TOTAL,AUGMENTED";
+    "TRIAL,SEED,SIMULATED,TOTAL,AUGMENTED,RULES";
 
 /// RFC 4180: quoted only where needed, quotes doubled.
 std::string field(const std::string& text) {
@@ -133,7 +133,7 @@ std::string row(const std::string& user_id, const assess::TrialAssessment& trial
   line += v.success ? ",1," : ",0,";
   return line + std::to_string(trial.trial) + ',' + std::to_string(trial.seed) +
          (trial.simulated ? ",1," : ",0,") + (trial.by_path ? shortest(trial.total) : "") +
-         (trial.augmented ? ",1" : ",0");
+         (trial.augmented ? ",1," : ",0,") + (trial.by_path ? field(trial.rules) : "");
 }
 
 }  // namespace

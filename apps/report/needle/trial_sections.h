@@ -52,11 +52,8 @@ void writeOverview(Html& html, const std::vector<TrialPage>& trials);
 
 /// A penalty code in the words of a clinical teacher.
 struct Code {
-  std::string_view code, unit, meaning;
+  std::string_view code, meaning;
 };
-
-/// Unit of a penalty's value; "" for unknown codes.
-std::string_view unitOf(const std::string& code);
 
 /// "What these numbers mean", with the source.
 void writeGlossary(Html& html);

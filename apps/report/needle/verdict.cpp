@@ -75,6 +75,7 @@ std::string outcomeWords(const assess::TrialAssessment& trial) {
   if (outcome == Outcome::aborted) return "Not successful: aborted";
   if (outcome == Outcome::time) return "Not successful: time limit reached";
   if (outcome == Outcome::passes) return "Not successful: too many passes of the needle";
+  if (outcome == Outcome::mistaken) return "Not successful: what was aspirated was not recognised";
   if (outcome == Outcome::voided) return "Void: does not count";
   return outcome == Outcome::none ? "Not finished" : training::nameOf(outcome);
 }
@@ -82,14 +83,15 @@ std::string outcomeWords(const assess::TrialAssessment& trial) {
 std::string shortOutcome(const assess::TrialAssessment& trial) {
   if (trial.outcome == Outcome::success) return hasComplication(trial) ? "complication" : "success";
   return trial.outcome == Outcome::time     ? "time limit"
-         : trial.outcome == Outcome::passes ? "too many passes"
+         : trial.outcome == Outcome::passes   ? "too many passes"
+         : trial.outcome == Outcome::mistaken ? "blood not recognised"
                                             : training::nameOf(trial.outcome);
 }
 
 Tone toneOfOutcome(const assess::TrialAssessment& trial) {
   if (trial.outcome == Outcome::success) return hasComplication(trial) ? Tone::guide : Tone::good;
   return trial.outcome == Outcome::aborted || trial.outcome == Outcome::time ||
-                 trial.outcome == Outcome::passes
+                 trial.outcome == Outcome::passes || trial.outcome == Outcome::mistaken
              ? Tone::bad
              : Tone::neutral;
 }
