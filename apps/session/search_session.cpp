@@ -96,7 +96,7 @@ haptics::TickConfig SearchWorld::tickConfig(const SessionOptions& options) const
   config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
   config.floor = rendering;
   config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N,
-                                           station.coupling.stiffness, rendering.unit);
+                                           station.device.capabilities.stable_stiffness, rendering.unit);
   config.period_ns = std::llround(1e9 / options.rate_Hz);
   if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
   config.device_turns = 1;

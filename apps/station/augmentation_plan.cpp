@@ -81,6 +81,8 @@ Condition conditionIn(const JsonFile& file, double hysteresis, std::uint32_t sta
     c.compare = Condition::Compare::equal, c.threshold = countedIn(file, c.signal);
   else
     file.refuse("cue", "needs \"at_least\", \"below\" or \"is\" beside it");
+  if (file.has("hold_ms"))
+    c.hold_ms = static_cast<std::uint16_t>(file.integer("hold_ms", 0, 10'000));
   if (c.signal == Signal::learned) needState(file, c, states);
   return c;
 }

@@ -52,11 +52,14 @@ inline constexpr int kMostSubtasks = 8, kMostConditions = 4;
 ///   at_least   on: c >= t     off: c < t - h |t|
 ///   below      on: c < t      off: c >= t + h |t|
 ///   equal      |c - t| < 1/2, for what is counted
+/// Of a part that came on less than `hold_ms` ago it goes on holding: a hand that trembles about a
+/// threshold, or a probe that bounces, does not switch the part off and on.
 struct Condition {
   enum class Compare : std::uint8_t { at_least, below, equal };
   Signal signal = Signal::none;
   Compare compare = Compare::at_least;
-  std::uint8_t reserved[6]{};
+  std::uint16_t hold_ms = 0;
+  std::uint8_t reserved[4]{};
   double threshold = 0;      ///< t, SI (U/s for floor_speed)
   double hysteresis = 0.05;  ///< h
 };

@@ -79,7 +79,7 @@ TEST(Augmentation, APulseBelongsToItsPart) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Signal::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+      Signal::floor_texture, Condition::Compare::at_least, 0, {}, 1, 0};
   EXPECT_EQ(felt(plan, 50, [](int i, AugmentationInput& in) { in.bump = i == 5; }), 0);
   EXPECT_EQ(felt(plan, 50,
                  [](int i, AugmentationInput& in) {
@@ -95,7 +95,7 @@ TEST(Augmentation, APulseOfAPartsBeginning) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Signal::bone_force, Condition::Compare::at_least, {}, 0.5, 0.05};
+      Signal::bone_force, Condition::Compare::at_least, 0, {}, 0.5, 0.05};
   EXPECT_EQ(felt(plan, 100,
                  [](int i, AugmentationInput& in) {
                    in.signals[Signal::bone_force] = i > 30 && i < 60 ? 1 : 0;
@@ -167,7 +167,7 @@ TEST(Augmentation, BlendsInAndOutEvenly) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Signal::floor_contact, Condition::Compare::at_least, {}, 1, 0};
+      Signal::floor_contact, Condition::Compare::at_least, 0, {}, 1, 0};
   AugmentationState state;
   double last = 0, jump = 0;
   for (int i = 0; i < 200; ++i) {
@@ -289,7 +289,7 @@ TEST(Augmentation, AReliefBlendsInAndOutWithItsPart) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Signal::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+      Signal::floor_texture, Condition::Compare::at_least, 0, {}, 1, 0};
   AugmentationState state;
   for (int i = 0; i < 100; ++i) {
     AugmentationInput in = upward();
@@ -308,7 +308,7 @@ TEST(Augmentation, AReliefBeginsOnEachBumpThatIsEntered) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Signal::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+      Signal::floor_texture, Condition::Compare::at_least, 0, {}, 1, 0};
   AugmentationState state;
   for (int i = 0; i < 60; ++i) {
     AugmentationInput in = upward();

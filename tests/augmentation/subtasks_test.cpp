@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -23,7 +24,7 @@ SignalValues speed(double v) {
 }
 
 TEST(Subtasks, OnAtItsThresholdOffFivePercentBelow) {
-  const Subtasks s = one({Signal::floor_speed, Condition::Compare::at_least, {}, 468.75, 0.05});
+  const Subtasks s = one({Signal::floor_speed, Condition::Compare::at_least, 0, {}, 468.75, 0.05});
   SubtaskState state;
   EXPECT_EQ(detect(s, speed(468.74), 1, &state), 0u);
   EXPECT_EQ(state.on, 0u);
@@ -38,8 +39,35 @@ TEST(Subtasks, OnAtItsThresholdOffFivePercentBelow) {
   EXPECT_EQ(state.since_ns[0], 4);
 }
 
+/// A hand that trembles about the threshold, 10 times a second, by a fifth of it.
+int timesOnIn(double seconds, std::uint16_t hold_ms) {
+  const Subtasks s =
+      one({Signal::floor_speed, Condition::Compare::at_least, hold_ms, {}, 468.75, 0.05});
+  SubtaskState state;
+  int times = 0;
+  for (int i = 0; i < static_cast<int>(1000 * seconds); ++i)
+    times += detect(s, speed(468.75 * (1 + 0.2 * std::sin(2 * M_PI * 10 * 1e-3 * i))),
+                    1'000'000LL * i, &state) != 0;
+  return times;
+}
+
+TEST(Subtasks, AHoldKeepsAPartFromFlickering) {
+  EXPECT_EQ(timesOnIn(10, 0), 100);
+  EXPECT_EQ(timesOnIn(10, 100), 1) << "it is on again before the hold ends";
+  const Subtasks s = one({Signal::floor_contact, Condition::Compare::at_least, 100, {}, 1, 0});
+  SubtaskState state;
+  SignalValues signals;
+  signals[Signal::floor_contact] = 1;
+  EXPECT_EQ(detect(s, signals, 1'000'000'000, &state), 1u) << "on at once";
+  signals[Signal::floor_contact] = 0;
+  detect(s, signals, 1'099'000'000, &state);
+  EXPECT_EQ(state.on, 1u);
+  detect(s, signals, 1'100'000'000, &state);
+  EXPECT_EQ(state.on, 0u) << "and off when it is over";
+}
+
 TEST(Subtasks, BelowIsTheMirrorImage) {
-  const Subtasks s = one({Signal::floor_speed, Condition::Compare::below, {}, 100, 0.05});
+  const Subtasks s = one({Signal::floor_speed, Condition::Compare::below, 0, {}, 100, 0.05});
   SubtaskState state;
   detect(s, speed(100), 1, &state);
   EXPECT_EQ(state.on, 0u);
@@ -53,7 +81,7 @@ TEST(Subtasks, BelowIsTheMirrorImage) {
 
 TEST(Subtasks, HysteresisOfANegativeThresholdGoesTheRightWay) {
   SignalValues signals;
-  const Subtasks s = one({Signal::lump_edge, Condition::Compare::at_least, {}, -0.004, 0.1});
+  const Subtasks s = one({Signal::lump_edge, Condition::Compare::at_least, 0, {}, -0.004, 0.1});
   SubtaskState state;
   signals[Signal::lump_edge] = -0.0039;
   detect(s, signals, 1, &state);
@@ -67,10 +95,10 @@ TEST(Subtasks, HysteresisOfANegativeThresholdGoesTheRightWay) {
 }
 
 TEST(Subtasks, AllConditionsMustHoldAndPartsMayOverlap) {
-  Subtasks s = one({Signal::floor_contact, Condition::Compare::at_least, {}, 1, 0});
-  s.each[0].conditions[1] = {Signal::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+  Subtasks s = one({Signal::floor_contact, Condition::Compare::at_least, 0, {}, 1, 0});
+  s.each[0].conditions[1] = {Signal::floor_texture, Condition::Compare::at_least, 0, {}, 1, 0};
   s.each[0].count = 2;
-  s.each[1].conditions[0] = {Signal::phase, Condition::Compare::equal, {}, 2, 0};
+  s.each[1].conditions[0] = {Signal::phase, Condition::Compare::equal, 0, {}, 2, 0};
   s.each[1].count = 1;
   s.count = 2;
   SubtaskState state;
@@ -88,7 +116,7 @@ TEST(Subtasks, AllConditionsMustHoldAndPartsMayOverlap) {
 }
 
 TEST(Subtasks, ASpeedThatTremblesAboutItsThresholdDoesNotChatter) {
-  const Subtasks s = one({Signal::floor_speed, Condition::Compare::at_least, {}, 468.75, 0.05});
+  const Subtasks s = one({Signal::floor_speed, Condition::Compare::at_least, 0, {}, 468.75, 0.05});
   SubtaskState state;
   int switches = 0;
   for (int i = 0; i < 1000; ++i) {

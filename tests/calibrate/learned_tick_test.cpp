@@ -60,7 +60,7 @@ haptics::TickConfig learnedConfig() {
   for (; parts.count < kStates; ++parts.count) {
     parts.each[parts.count].count = 1;
     parts.each[parts.count].conditions[0] = {
-        haptics::Signal::learned, haptics::Condition::Compare::equal, {}, 1.0 + parts.count, 0};
+        haptics::Signal::learned, haptics::Condition::Compare::equal, 0, {}, 1.0 + parts.count, 0};
   }
   return config;
 }

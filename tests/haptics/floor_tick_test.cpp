@@ -214,7 +214,7 @@ struct EverythingOn {
     plan.subtasks.count = 1;
     plan.subtasks.each[0].count = 1;
     plan.subtasks.each[0].conditions[0] = {
-        Signal::floor_speed, Condition::Compare::at_least, {}, 100, 0.05};
+        Signal::floor_speed, Condition::Compare::at_least, 0, {}, 100, 0.05};
     plan.largest = 5;
     plan.steepest = 5000;
   }

@@ -76,7 +76,7 @@ TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
   const std::vector<Stated> stated{
       {"scan", {{Signal::floor_speed, kAtLeast, {}, 468.75, 0.05}}},
       {"shape",
-       {{Signal::floor_speed, Condition::Compare::below, {}, 468.75, 0.05},
+       {{Signal::floor_speed, Condition::Compare::below, 0, {}, 468.75, 0.05},
         {Signal::floor_contact, kAtLeast, {}, 1, 0.05}}},
       {"identify",
        {{Signal::floor_contact, kAtLeast, {}, 1, 0.05},
