@@ -68,11 +68,11 @@ struct TickCommands {
         /// Of what is held between two tools: how many times as hard and as heavy as it is, in this
         /// trial
       squeeze_weight = 1;
-  std::uint32_t floor = 0;     ///< number of the floor that is searched; 0: none
-  std::uint8_t degraded = 0;   ///< the floor with the lesser gains
-  std::uint8_t held = 0;       ///< the handle is held where an episode starts
-  std::uint8_t augmented = 0;  ///< 1: the session's augmentations may add force
-  std::uint8_t asked = 0;      ///< the trial waits for an answer
+  std::uint32_t floor = 0;         ///< number of the floor that is searched; 0: none
+  std::uint8_t degraded = 0;       ///< the floor with the lesser gains
+  std::uint8_t held = 0;           ///< the handle is held where an episode starts
+  std::uint8_t augmented = 0;      ///< 1: the session's augmentations may add force
+  std::uint8_t asked = 0;          ///< the trial waits for an answer
   Packed3 line_p_D{}, line_a_D{};  ///< m; unit: a line for virtual fixtures; direction 0: none
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);

@@ -13,7 +13,7 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kNear = 0.008;  // m: organs farther apart need no line
+constexpr double kNear = 0.008;    // m: organs farther apart need no line
 constexpr double kArmAtRest = 40;  // degrees
 constexpr double kNone = std::numeric_limits<double>::infinity();
 

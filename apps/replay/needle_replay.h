@@ -23,7 +23,7 @@ struct NeedleMoment {
   double t_s = 0;  ///< since the trial's start; pauses do not count
   runtime::ToolState tool;
   assess::ProcedurePhase phase = assess::ProcedurePhase::approach;
-  double blood = 0;  ///< filled fraction of the syringe
+  double blood = 0;                                 ///< filled fraction of the syringe
   Tissue holds = Tissue::air, flows = Tissue::air;  ///< as in TaskStatus
 };
 

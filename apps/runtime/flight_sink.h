@@ -35,7 +35,8 @@ struct TrialHeader {
 struct TrialEnd {
   int trial = 0;
   std::int64_t t_ns = 0;  ///< session time of the last tick that was judged
-  std::string outcome;    ///< "success", "aborted", "time", "passes", "mistaken", "void", "not scored"
+  std::string
+      outcome;  ///< "success", "aborted", "time", "passes", "mistaken", "void", "not scored"
   std::string reason;
   std::string scores_json;  ///< as the assessment wrote them; empty when void
 };

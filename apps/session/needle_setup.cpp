@@ -18,14 +18,14 @@ std::unique_ptr<twin::Hand> operatorOf(const SessionOptions& options,
                                        const twin::VisibleAnatomy& anatomy, const Pose& X_ET) {
   if (options.who != OperatorKind::learner)
     return std::make_unique<twin::Operator>(skill, anatomy, X_ET, options.seed);
-  return std::make_unique<twin::LearningHand>(
-      [options, from = twin::readOperatorSkill(options.learner.from),
-       to = twin::readOperatorSkill(options.learner.to), anatomy, X_ET](int trial) {
-        const LearnerOptions& learner = options.learner;
-        return std::make_unique<twin::Operator>(
-            between(from, to, learner.level(trial)), anatomy, X_ET,
-            learner.seed + static_cast<std::uint64_t>(trial - 1));
-      });
+  return std::make_unique<twin::LearningHand>([options,
+                                               from = twin::readOperatorSkill(options.learner.from),
+                                               to = twin::readOperatorSkill(options.learner.to),
+                                               anatomy, X_ET](int trial) {
+    const LearnerOptions& learner = options.learner;
+    return std::make_unique<twin::Operator>(between(from, to, learner.level(trial)), anatomy, X_ET,
+                                            learner.seed + static_cast<std::uint64_t>(trial - 1));
+  });
 }
 
 }  // namespace

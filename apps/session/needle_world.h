@@ -36,7 +36,7 @@ struct NeedleWorld {
   std::optional<calibration::ExpertPath> expert_path;
   std::optional<calibration::TaughtPath> taught_path;  ///< the same on this patient
   std::string not_scored;  ///< why no score can be given on this patient: no path then
-  std::vector<anatomy::TriangleMesh> real_things;      ///< the station's, in its order; metres
+  std::vector<anatomy::TriangleMesh> real_things;  ///< the station's, in its order; metres
   Pose X_WA, X_DA;
 
   haptics::TickConfig tickConfig() const;

@@ -95,8 +95,9 @@ haptics::TickConfig SearchWorld::tickConfig(const SessionOptions& options) const
   config.X_ET = pack(station.X_ET);
   config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
   config.floor = rendering;
-  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N,
-                                           station.device.capabilities.stable_stiffness, rendering.unit);
+  config.augmentations =
+      station::onDevice(task.augmentations, station.safety.max_force_N,
+                        station.device.capabilities.stable_stiffness, rendering.unit);
   config.period_ns = std::llround(1e9 / options.rate_Hz);
   if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
   config.device_turns = 1;
@@ -179,6 +180,32 @@ SearchRun runSearch(const SessionOptions& options, const SearchWorld& world,
   return run;
 }
 
+namespace {
+
+/// How strong attractions are at most, on this device and with this unit; grooves and pits are
+/// valleys of the same radius.
+std::vector<report::Fact> pullFacts(const SearchWorld& world) {
+  const double radius = world.task.spec.bottom_radius,
+               steepest = world.station.device.capabilities.stable_stiffness;
+  std::vector<report::Fact> facts;
+  const station::NamedPlan& named = world.task.augmentations;
+  for (std::size_t i = 0; i < named.plan.count; ++i) {
+    const haptics::Augmentation& a = named.plan.each[i];
+    if (a.kind != haptics::AugmentationKind::attraction) continue;
+    const double reach = named.reach_U[i] > 0 ? world.rendering.unit * named.reach_U[i] : a.reach;
+    const auto peak = [&](double amplitude) { return 2 * amplitude / radius; };
+    facts.push_back(
+        {"Pull into valleys, at most",
+         format("%.1f N", peak(haptics::attractionHeld(a.amplitude, reach, radius, steepest))),
+         format("of %.1f N that the task asks for: no steeper than the device's %.0f N/m, with "
+                "1 U = %.3g mm",
+                peak(a.amplitude), steepest, 1e3 * world.rendering.unit)});
+  }
+  return facts;
+}
+
+}  // namespace
+
 void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
                         const SearchRun& run, const std::filesystem::path& folder) {
   report::SearchReport page;
@@ -201,6 +228,7 @@ void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
                           format("%.0f N/m, degraded %.0f N/m", world.rendering.real.stiffness,
                                  world.rendering.degraded.stiffness),
                           ""});
+  for (report::Fact& fact : pullFacts(world)) page.station.push_back(std::move(fact));
   page.notes = runNotes(run);
   page.unit_note =
       format("1 U = %.3g mm in the hand: the floor is %.1f mm wide", 1e3 * world.rendering.unit,

@@ -121,8 +121,9 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   hearButtons(record, now_ns);
   if (!status().active()) return;
   const assess::ScoringRules& rules = setup_.settings.rules;
-  const bool reached = setup_.settings.goal ? goal_.reached()
-                                            : rules.told_within_s == 0 && in_lumen_s_ >= rules.dwell_s;
+  const bool reached = setup_.settings.goal
+                           ? goal_.reached()
+                           : rules.told_within_s == 0 && in_lumen_s_ >= rules.dwell_s;
   if (reached) return endTrial(Outcome::success, "", now_ns);
   if (const int most = plan().most_passes; most > 0 && passes_.passes() > most)
     return endTrial(Outcome::passes,
@@ -148,10 +149,10 @@ void NeedleTask::aspirate(const assess::TrialSample& sample, double dt, std::int
     report(now_ns, EventKind::phase, "It is asked what is aspirated");
   shown_.asked = question_.asked();
   if (shown_.asked && question_.waited_s() > rules.told_within_s)
-    endTrial(Outcome::mistaken,
-             std::string("It was not said what was aspirated: ") +
-                 assess::looksOf(question_.about()),
-             now_ns);
+    endTrial(
+        Outcome::mistaken,
+        std::string("It was not said what was aspirated: ") + assess::looksOf(question_.about()),
+        now_ns);
 }
 
 /// A right word ends the trial in the vein; of artery or lung it only ends the question.

@@ -8,8 +8,8 @@ namespace {
 const EnumNames<Role> kRoles{"",       "scored",    "assessed", "familiarisation", "demonstration",
                              "guided", "not scored"};
 
-const EnumNames<Outcome> kOutcomes{"",       "success", "done", "time",
-                                   "passes", "mistaken", "aborted", "void", "not scored"};
+const EnumNames<Outcome> kOutcomes{"",         "success", "done", "time",      "passes",
+                                   "mistaken", "aborted", "void", "not scored"};
 
 }  // namespace
 

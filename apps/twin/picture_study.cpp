@@ -7,8 +7,8 @@
 namespace palpa::twin {
 namespace {
 
-constexpr double kReach = 0.010;  // m of vein that is looked at as one straight tube
-constexpr double kAlong = 0.015, kStep = 0.001;          // m, along the vein
+constexpr double kReach = 0.010;                 // m of vein that is looked at as one straight tube
+constexpr double kAlong = 0.015, kStep = 0.001;  // m, along the vein
 constexpr double kOffBone = 0.002, kOffPleura = 0.003;  // m
 
 std::vector<int> surfacesOf(const anatomy::Patient& patient, Organ organ) {
@@ -20,8 +20,7 @@ std::vector<int> surfacesOf(const anatomy::Patient& patient, Organ organ) {
 
 class Pictures {
  public:
-  Pictures(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query,
-           const Vec3& entry_A)
+  Pictures(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query, const Vec3& entry_A)
       : patient_(patient), query_(query), entry_A_(entry_A) {}
 
   /// The middle of the vein at the place of its wall that is nearest.

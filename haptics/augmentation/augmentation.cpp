@@ -87,11 +87,8 @@ Vec3 vibration(const ActiveAugmentation& p) noexcept {
 Vec3 attraction(const ActiveAugmentation& p, double steepest) noexcept {
   const double d = p.in.to_valley.norm();
   if (p.in.valley_radius <= 0 || d <= 0 || p.a.reach <= 0) return Vec3::Zero();
-  const double held = steepest * p.a.reach * p.in.valley_radius /
-                      kTwoPi;  // the amplitude that rises just so steeply
-  return p.weight() *
-         attractionForce(std::min(p.a.amplitude, held), d, p.a.reach, p.in.valley_radius) *
-         p.in.to_valley / d;
+  const double held = attractionHeld(p.a.amplitude, p.a.reach, p.in.valley_radius, steepest);
+  return p.weight() * attractionForce(held, d, p.a.reach, p.in.valley_radius) * p.in.to_valley / d;
 }
 
 Vec3 exaggeration(const ActiveAugmentation& p) noexcept {
@@ -144,6 +141,10 @@ bool running(const ActiveAugmentation& p) noexcept {
 
 double attractionForce(double amplitude, double d, double d_max, double radius) noexcept {
   return d < 0 || d > d_max ? 0 : amplitude * (1 - std::cos(kTwoPi * d / d_max)) / radius;
+}
+
+double attractionHeld(double amplitude, double d_max, double radius, double steepest) noexcept {
+  return std::min(amplitude, steepest * d_max * radius / kTwoPi);
 }
 
 Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,

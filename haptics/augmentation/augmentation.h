@@ -118,5 +118,8 @@ Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,
 /// A (1 - cos(2 pi d / d_max)) / r, N; 0 beyond d_max. Its steepest slope is 2 pi A / (d_max r), at
 /// d_max / 4.
 double attractionForce(double amplitude, double d, double d_max, double radius) noexcept;
+/// The amplitude that rises no steeper than `steepest` N/m, at most `amplitude`: K d_max r / (2
+/// pi).
+double attractionHeld(double amplitude, double d_max, double radius, double steepest) noexcept;
 
 }  // namespace palpa::haptics

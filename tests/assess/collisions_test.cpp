@@ -56,6 +56,38 @@ TEST(Collisions, ContactBetweenTwoSamplesIsToldThoughNotCounted) {
   EXPECT_EQ(a.summary.find("no injury"), std::string::npos) << a.summary;
 }
 
+/// By contacts: one, and one more for each full second that it lasts.
+TEST(Collisions, BoneByContactsDoesNotSwampTheScore) {
+  ScoringRules rules;
+  rules.bone_unit = BoneUnit::contacts;
+  const auto count = [&](const std::vector<TrialSample>& samples) {
+    const TrialAssessment a = assess(samples, "success", rules);
+    EXPECT_EQ(penalty(a, "COL_RIB").unit, "contacts");
+    EXPECT_EQ(penalty(a, "COL_RIB").sentence.find("Too short"), std::string::npos);
+    return a.values.col_rib;
+  };
+  EXPECT_EQ(count(textbook().samples()), 0);
+  EXPECT_EQ(count(touching(2.01, 2.03, rib)), 1) << "between two samples, too";
+  EXPECT_EQ(count(touching(2.0, 2.4, rib)), 1);
+  EXPECT_EQ(count(touching(1.2, 2.21, rib)), 2);
+  EXPECT_EQ(count(touching(1.2, 3.3, rib)), 3);
+  std::vector<TrialSample> twice = touching(2.0, 2.1, rib);
+  for (TrialSample& s : twice)
+    if (s.t_s >= 2.5 && s.t_s < 2.6) rib(s);
+  EXPECT_EQ(count(twice), 2);
+}
+
+TEST(Collisions, NoLineIsAboutAnOrganThatThePatientLacks) {
+  const TrialAssessment a = assessTrial(facts(), textbook().samples(), landmarksOnly(),
+                                        OrganDistance(nowhere), taughtPath(), {});
+  EXPECT_EQ(a.not_judged, (std::vector<std::string>{"lung", "artery"}));
+  for (const Penalty& p : a.penalties) {
+    EXPECT_NE(p.code, "COL_LUNG");
+    EXPECT_NE(p.code, "COL_ART");
+  }
+  EXPECT_EQ(assess(textbook().samples()).not_judged, std::vector<std::string>{});
+}
+
 TEST(Collisions, GuidingContactWithTheClavicleIsFree) {
   const auto press = [](double force) {
     return [force](TrialSample& s) { s.bone = Organ::clavicle, s.bone_force = force; };

@@ -35,5 +35,20 @@ TEST(Score, EachValueAddsItsWeight) {
   EXPECT_DOUBLE_EQ(total(row(0, 0, 0, 0, 0, 0, 0, 0, 100)), 1);
 }
 
+TEST(Phase2Weight, ContinuousHasNoJumpAndMeetsThePrintedOne) {
+  ScoreWeights w;
+  w.phase_2 = Phase2Weight::continuous;
+  const ScoreWeights printed;
+  double before = 0;
+  for (double value = 0; value <= 4000; value += 0.5) {
+    const double points = w.phase2Weight(value) * value;
+    EXPECT_GE(points, before) << value;
+    EXPECT_LT(points - before, 1) << "a jump at " << value;
+    before = points;
+  }
+  for (const double value : {0.0, 999.0, 1500.0, 2000.0, 5000.0})
+    EXPECT_DOUBLE_EQ(w.phase2Weight(value), printed.phase2Weight(value)) << value;
+}
+
 }  // namespace
 }  // namespace palpa::assess

@@ -40,8 +40,8 @@ struct CollisionCounts {
   int lung = 0, rib = 0, artery = 0, vein = 0;
 };
 
-/// Scoring samples in contact; of bone in the rules' unit. `stay` is where contact with the vein is wanted (not found:
-/// nowhere); its back wall counts everywhere.
+/// Scoring samples in contact; of bone in the rules' unit. `stay` is where contact with the vein is
+/// wanted (not found: nowhere); its back wall counts everywhere.
 CollisionCounts countCollisions(Samples samples, const FinalStay& stay, const ScoringRules& rules);
 
 /// Closest the tip came to an organ while inserted, looked at `rate_Hz` times a second.

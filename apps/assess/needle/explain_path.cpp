@@ -100,10 +100,9 @@ Penalty economyMean(const TrialReview& r, const calibration::TaughtPath& path,
     return p;
   }
   p.sentence = "In phase 2 tip and shaft were " + millimetres(r.economy.mean_mm / 1000) +
-               " from the taught line on average" +
-               expertsVary(path.line_acceptable) + ", at most " +
-               millimetres(r.economy.largest_mm / 1000) + " at " + seconds(r.economy.largest_s) +
-               ".";
+               " from the taught line on average" + expertsVary(path.line_acceptable) +
+               ", at most " + millimetres(r.economy.largest_mm / 1000) + " at " +
+               seconds(r.economy.largest_s) + ".";
   p.moments_s = {r.economy.largest_s};
   return p;
 }

@@ -12,8 +12,8 @@ namespace {
 
 Penalty line(const char* code, const char* title, double value, double weight, std::string sentence,
              const std::vector<Interval>& stretches, const char* unit = "samples") {
-  return {code,           title,          std::move(sentence), value, weight,
-          weight * value, startsOf(stretches), unit};
+  return {code,   title,          std::move(sentence), value,
+          weight, weight * value, startsOf(stretches), unit};
 }
 
 std::vector<Interval> inOrder(std::vector<Interval> a, const std::vector<Interval>& b) {

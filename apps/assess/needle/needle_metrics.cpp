@@ -241,7 +241,7 @@ std::vector<MetricValue> needleMetrics(const TrialReview& r, const TrialAssessme
       {"skin_punctures", static_cast<double>(a.skin_punctures)},
       {"redirections", static_cast<double>(a.redirections)},
       {"needle_passes", static_cast<double>(passes)},
-      {"aspirate_told", !r.asked                                    ? kDoesNotApply
+      {"aspirate_told", !r.asked                                   ? kDoesNotApply
                         : a.outcome == training::Outcome::mistaken ? 0.0
                                                                    : 1.0},
       {"first_pass_success", v.success && passes == 1 ? 1.0 : 0.0},

@@ -8,7 +8,7 @@ namespace palpa::assess {
 /// What is counted in a trial of subclavian paracentesis. Higher is worse.
 /// Source: Tzafestas et al., Presence 17(2), 2008, tables 1 and 2.
 struct ParacentesisValues {
-  double col_lung = 0;   ///< scoring samples (20 Hz) in contact with the lung
+  double col_lung = 0;  ///< scoring samples (20 Hz) in contact with the lung
   /// ... with ribs and skeleton, guiding contact with the clavicle left out, in the rules' BoneUnit
   double col_rib = 0;
   double col_art = 0;    ///< ... with arteries

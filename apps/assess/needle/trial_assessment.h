@@ -83,7 +83,7 @@ struct TrialAssessment {
   std::uint64_t seed = 0;
   training::Outcome outcome = training::Outcome::none;
   std::string summary;  ///< one or two plain sentences
-  std::string rules;  ///< their version
+  std::string rules;    ///< their version
   ParacentesisValues values;
   double total = 0;
   std::vector<Penalty> penalties;

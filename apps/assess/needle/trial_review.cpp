@@ -164,7 +164,8 @@ TrialReview review(const TrialFacts& facts, Samples all, const anatomy::Landmark
   r.samples = r.success ? all.first(successSample(all, rules) + 1) : all;
   r.end_s = r.samples.empty() ? 0 : r.samples.back().t_s;
   r.asked = std::any_of(all.begin(), all.end(), [](const TrialSample& s) { return s.waiting; });
-  r.waited_s = heldTime(intervals(r.samples, [](const TrialSample& s) { return s.waiting; }, 0));
+  r.waited_s = heldTime(intervals(
+      r.samples, [](const TrialSample& s) { return s.waiting; }, 0));
   r.history = detectPhases(r.samples);
   r.pass = scoredPass(r.history.passes, r.success);
   if (r.success) r.stay = finalStay(r.samples);

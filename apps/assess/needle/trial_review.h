@@ -56,8 +56,8 @@ struct TrialReview {
   TrialReview() = default;
   TrialReview(TrialReview&&) = default;  // `pass` points into `history`: movable, not copyable
 
-  Samples samples;   ///< up to the end that is scored
-  double end_s = 0;  ///< moment of success, else the last sample
+  Samples samples;      ///< up to the end that is scored
+  double end_s = 0;     ///< moment of success, else the last sample
   bool asked = false;   ///< what was aspirated
   double waited_s = 0;  ///< until then, for an answer: not in TIME
   double time_s() const { return end_s - waited_s; }

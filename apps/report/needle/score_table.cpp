@@ -110,8 +110,7 @@ void writeScoreTable(Html& html, const assess::TrialAssessment& assessment) {
 namespace {
 
 constexpr Code kCodes[] = {
-    {"COL_LUNG",
-     "Scoring samples, 20 a second, in which the needle was in contact with the lung."},
+    {"COL_LUNG", "Scoring samples, 20 a second, in which the needle was in contact with the lung."},
     {"COL_RIB",
      "Contacts with ribs and skeleton, each counted again for every full second that it lasts; "
      "scored as published, samples as above. Touching the clavicle lightly to find the way beneath "
@@ -130,8 +129,7 @@ constexpr Code kCodes[] = {
     {"ECON_MEAN",
      "Economy of movement: mean distance of the needle from the optimal line while it is "
      "advanced."},
-    {"ECON_VAR",
-     "Economy of movement: variance of that distance; a steady hand has little."},
+    {"ECON_VAR", "Economy of movement: variance of that distance; a steady hand has little."},
     {"TIME", "From the start of the trial to its end."},
     {"TOTAL", "Sum of weight × value over all of the above. Lower is better."}};
 

@@ -82,10 +82,10 @@ std::string outcomeWords(const assess::TrialAssessment& trial) {
 
 std::string shortOutcome(const assess::TrialAssessment& trial) {
   if (trial.outcome == Outcome::success) return hasComplication(trial) ? "complication" : "success";
-  return trial.outcome == Outcome::time     ? "time limit"
+  return trial.outcome == Outcome::time       ? "time limit"
          : trial.outcome == Outcome::passes   ? "too many passes"
          : trial.outcome == Outcome::mistaken ? "blood not recognised"
-                                            : training::nameOf(trial.outcome);
+                                              : training::nameOf(trial.outcome);
 }
 
 Tone toneOfOutcome(const assess::TrialAssessment& trial) {
