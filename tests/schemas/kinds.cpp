@@ -265,7 +265,8 @@ std::vector<Kind> patientKinds() {
        .forgiving = {},
        .elsewhere = {}},
       {.name = "expert_path",
-       .samples = {{"tasks/paracentesis_expert_path.json", json::object()}},
+       .samples = {{"tasks/paracentesis_expert_path.json", json::object()},
+                   {"tasks/paracentesis_published_expert_path.json", json::object()}},
        .read = [](const fs::path& file) { calibration::readExpertPath(file); },
        .stricter = {"/direction_L.*"},  // a unit vector
        .forgiving = {},
