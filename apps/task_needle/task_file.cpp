@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/enum_names.h"
 #include "anatomy/base/units.h"
 #include "apps/station/task_sections.h"
 #include "apps/training/engine.h"
@@ -103,7 +104,12 @@ const EnumNames<assess::Phase2Weight> kPhase2Weights{"steps", "continuous"};
 
 /// Recordings made before rules had names say nothing of them: those of then.
 void readVersion(const JsonFile& file, assess::ScoringRules* rules) {
-  if (!file.has("scoring/rules")) return;
+  if (!file.has("scoring/rules")) {
+    for (const char* newer :
+         {"scoring/COL_RIB_counts", "scoring/PHASE_2_weight", "scoring/told_within_s"})
+      if (file.has(newer)) file.refuse(newer, "needs a name of the rules beside it, \"rules\"");
+    return;
+  }
   rules->version = file.text("scoring/rules");
   rules->bone_unit = kBoneUnits.in(file, "scoring/COL_RIB_counts");
   rules->weights.phase_2 = kPhase2Weights.in(file, "scoring/PHASE_2_weight");

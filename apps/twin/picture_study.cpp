@@ -7,8 +7,8 @@
 namespace palpa::twin {
 namespace {
 
-constexpr double kReach = 0.010;                 // m of vein that is looked at as one straight tube
-constexpr double kAlong = 0.015, kStep = 0.001;  // m, along the vein
+constexpr double kReach = 0.010;  // m of vein that is looked at as one straight tube
+constexpr double kAlong = 0.015, kStride = 0.001;       // m, along the vein
 constexpr double kOffBone = 0.002, kOffPleura = 0.003;  // m
 
 std::vector<int> surfacesOf(const anatomy::Patient& patient, Organ organ) {
@@ -66,9 +66,9 @@ Vec3 aimByPictures(const anatomy::Patient& patient, const anatomy::SurfaceQuery&
   if (!pictures.middleNear(guess_A, &middle_A)) return guess_A;
   Vec3 along = Vec3::Zero();
   if (pictures.middleNear(guess_A + kReach * (middle_A - entry_A).normalized(), &ahead_A) &&
-      (ahead_A - middle_A).norm() > kStep)
+      (ahead_A - middle_A).norm() > kStride)
     along = (ahead_A - middle_A).normalized();
-  for (double away = 0; away <= kAlong; away += kStep)
+  for (double away = 0; away <= kAlong; away += kStride)
     for (const double sign : {1.0, -1.0}) {
       Vec3 there_A;
       if (pictures.middleNear(middle_A + sign * away * along, &there_A) && pictures.isWay(there_A))

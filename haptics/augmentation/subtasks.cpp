@@ -20,12 +20,9 @@ const SignalName& signalName(Signal signal) noexcept {
 
 namespace {
 
-constexpr std::int64_t kNotOn = -1, kMillisecond = 1'000'000;  // ns
+constexpr std::int64_t kMillisecond = 1'000'000;  // ns
 
-/// `on_ns`: how long its part is on; below 0: it is not.
-bool holds(const Condition& c, double value, std::int64_t on_ns) noexcept {
-  const bool before = on_ns >= 0;
-  if (before && on_ns < c.hold_ms * kMillisecond) return true;
+bool holds(const Condition& c, double value, bool before) noexcept {
   const double back = before ? c.hysteresis * std::abs(c.threshold) : 0;
   switch (c.compare) {
     case Condition::Compare::at_least:
@@ -48,13 +45,17 @@ std::uint32_t detect(const Subtasks& subtasks, const SignalValues& signals, std:
     const Subtask& subtask = subtasks.each[i];
     const std::uint32_t bit = 1u << i;
     const bool before = state->on & bit;
-    const std::int64_t on_ns = before ? now_ns - state->since_ns[i] : kNotOn;
-    bool on = true;
-    for (std::uint32_t k = 0; k < std::min<std::uint32_t>(subtask.count, kMostConditions); ++k)
-      on = holds(subtask.conditions[k], signals[subtask.conditions[k].signal], on_ns) && on;
+    const std::int64_t ago_ns = now_ns - state->since_ns[i];
+    bool held = true, on = true;
+    for (std::uint32_t k = 0; k < std::min<std::uint32_t>(subtask.count, kMostConditions); ++k) {
+      const Condition& c = subtask.conditions[k];
+      const bool now = holds(c, signals[c.signal], before);
+      held = held && now;
+      on = on && (now || (before && ago_ns < c.hold_ms * kMillisecond));
+    }
+    if (held || on != before) state->since_ns[i] = now_ns;
     if (on == before) continue;
     state->on ^= bit;
-    state->since_ns[i] = now_ns;
     if (on) began |= bit;
   }
   return began;

@@ -52,7 +52,7 @@ inline constexpr int kMostSubtasks = 8, kMostConditions = 4;
 ///   at_least   on: c >= t     off: c < t - h |t|
 ///   below      on: c < t      off: c >= t + h |t|
 ///   equal      |c - t| < 1/2, for what is counted
-/// Of a part that came on less than `hold_ms` ago it goes on holding: a hand that trembles about a
+/// Of a part that is on, it is taken to hold for `hold_ms` more: a hand that trembles about a
 /// threshold, or a probe that bounces, does not switch the part off and on.
 struct Condition {
   enum class Compare : std::uint8_t { at_least, below, equal };
@@ -78,8 +78,9 @@ struct Subtasks {
 };
 
 struct SubtaskState {
-  std::array<std::int64_t, kMostSubtasks> since_ns{};  ///< when it came on, or went off
-  std::uint32_t on = 0;                                ///< bit i: part i
+  std::array<std::int64_t, kMostSubtasks>
+      since_ns{};  ///< of a part that is on: when its conditions last held; else when it went off
+  std::uint32_t on = 0;  ///< bit i: part i
   std::uint32_t reserved = 0;
 };
 static_assert(std::is_trivially_copyable_v<Subtasks> && std::is_trivially_copyable_v<SubtaskState>);

@@ -33,7 +33,7 @@ TEST(Subtasks, OnAtItsThresholdOffFivePercentBelow) {
   EXPECT_EQ(state.since_ns[0], 2);
   EXPECT_EQ(detect(s, speed(0.95 * 468.75 + 1e-6), 3, &state), 0u);
   EXPECT_EQ(state.on, 1u);
-  EXPECT_EQ(state.since_ns[0], 2);
+  EXPECT_EQ(state.since_ns[0], 3);
   detect(s, speed(0.95 * 468.75 - 1e-6), 4, &state);
   EXPECT_EQ(state.on, 0u);
   EXPECT_EQ(state.since_ns[0], 4);
@@ -53,7 +53,7 @@ int timesOnIn(double seconds, std::uint16_t hold_ms) {
 
 TEST(Subtasks, AHoldKeepsAPartFromFlickering) {
   EXPECT_EQ(timesOnIn(10, 0), 100);
-  EXPECT_EQ(timesOnIn(10, 100), 1) << "it is on again before the hold ends";
+  EXPECT_EQ(timesOnIn(10, 100), 1) << "it holds again before the hold ends";
   const Subtasks s = one({Signal::floor_contact, Condition::Compare::at_least, 100, {}, 1, 0});
   SubtaskState state;
   SignalValues signals;

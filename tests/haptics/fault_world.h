@@ -161,7 +161,7 @@ struct FaultyWorld {
     plan.subtasks.count = 1;
     plan.subtasks.each[0].count = 1;
     plan.subtasks.each[0].conditions[0] = {
-        Signal::contact_force, Condition::Compare::at_least, {}, dice.uniform(0.01, 0.5), 0.05};
+        Signal::contact_force, Condition::Compare::at_least, 0, {}, dice.uniform(0.01, 0.5), 0.05};
     for (const AugmentationKind kind :
          {AugmentationKind::pulse, AugmentationKind::vibration, AugmentationKind::attraction,
           AugmentationKind::exaggeration, AugmentationKind::fixture, AugmentationKind::relief}) {

@@ -93,8 +93,8 @@ TEST(Moments, TheyAreThoseOfTheTrialAndBloodFillsAQuarterASecond) {
     reader.add(tickAt(1 + 1e-3 * i, 0.5, i < 1000 ? Tissue::air : Tissue::vein_lumen));
   const std::vector<NeedleMoment>& moments = reader.moments();
   ASSERT_EQ(moments.size(), 500u);  // every 4 ms
-  EXPECT_FALSE(moments[249].blood_flows);
-  EXPECT_TRUE(moments[251].blood_flows);
+  EXPECT_EQ(moments[249].flows, Tissue::air);
+  EXPECT_EQ(moments[251].flows, Tissue::vein_lumen);
   EXPECT_NEAR(moments.back().blood, 0.25 * (moments.back().t_s - moments[249].t_s), 0.003);
   const std::size_t middle = momentAt(moments, moments[100].t_s + 0.003);
   EXPECT_EQ(middle, 100u);
@@ -104,7 +104,7 @@ TEST(Moments, TheyAreThoseOfTheTrialAndBloodFillsAQuarterASecond) {
   const task_needle::TaskStatus status = statusAt(moments.back(), 2, false);
   EXPECT_EQ(status.trial, 2);
   EXPECT_FALSE(status.force_feedback);
-  EXPECT_TRUE(status.blood_flows);
+  EXPECT_EQ(status.flows, Tissue::vein_lumen);
 }
 
 }  // namespace

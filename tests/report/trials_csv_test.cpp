@@ -18,6 +18,7 @@ std::vector<assess::TrialAssessment> paperRows() {
   first.seed = 18446744073709551615u;
   first.simulated = true;
   first.values = {0, 0, 0, 1, 6, 0, 18, 27, 31524, true};
+  first.rules = second.rules = "2";
   first.total = 913.24;
   second.trial = 2;
   second.force_feedback = false;
@@ -28,14 +29,14 @@ std::vector<assess::TrialAssessment> paperRows() {
 
 constexpr const char* kHeader =
     "USER_ID,FF,COL_LUNG,COL_RIB,COL_ART,COL_VEIN,PHASE_1,PHASE_2,ECON_MEAN,ECON_VAR,TIME,SUCCESS,"
-    "TRIAL,SEED,SIMULATED,TOTAL,AUGMENTED\n";
+    "TRIAL,SEED,SIMULATED,TOTAL,AUGMENTED,RULES\n";
 
 TEST(TrialsCsv, IsThisText) {
   const fs::path file = freshFolder("csv") / "trials.csv";
   writeTrialsCsv("P07", paperRows(), file);
   EXPECT_EQ(slurp(file), std::string(kHeader) +
-                             "P07,1,0,0,0,1,6,0,18,27,31524,1,1,18446744073709551615,1,913.24,0\n"
-                             "P07,0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4,0\n");
+                             "P07,1,0,0,0,1,6,0,18,27,31524,1,1,18446744073709551615,1,913.24,0,2\n"
+                             "P07,0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4,0,2\n");
 }
 
 TEST(TrialsCsv, QuotesWhatNeedsIt) {
@@ -43,7 +44,7 @@ TEST(TrialsCsv, QuotesWhatNeedsIt) {
   writeTrialsCsv("a,\"b\"\n", {paperRows()[1]}, file);
   EXPECT_EQ(slurp(file),
             std::string(kHeader) +
-                "\"a,\"\"b\"\"\n\",0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4,0\n");
+                "\"a,\"\"b\"\"\n\",0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4,0,2\n");
 }
 
 struct CommaPoint : std::numpunct<char> {

@@ -74,14 +74,14 @@ TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
   };
   constexpr auto kAtLeast = Condition::Compare::at_least;
   const std::vector<Stated> stated{
-      {"scan", {{Signal::floor_speed, kAtLeast, {}, 468.75, 0.05}}},
+      {"scan", {{Signal::floor_speed, kAtLeast, 100, {}, 468.75, 0.05}}},
       {"shape",
-       {{Signal::floor_speed, Condition::Compare::below, 0, {}, 468.75, 0.05},
-        {Signal::floor_contact, kAtLeast, {}, 1, 0.05}}},
+       {{Signal::floor_speed, Condition::Compare::below, 100, {}, 468.75, 0.05},
+        {Signal::floor_contact, kAtLeast, 100, {}, 1, 0.05}}},
       {"identify",
-       {{Signal::floor_contact, kAtLeast, {}, 1, 0.05},
-        {Signal::floor_texture, kAtLeast, {}, 1, 0.05},
-        {Signal::floor_speed, kAtLeast, {}, 400, 0.05}}}};
+       {{Signal::floor_contact, kAtLeast, 100, {}, 1, 0.05},
+        {Signal::floor_texture, kAtLeast, 100, {}, 1, 0.05},
+        {Signal::floor_speed, kAtLeast, 100, {}, 400, 0.05}}}};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(named.subtasks[i].name, stated[i].part);
     EXPECT_FALSE(named.subtasks[i].means.empty());
@@ -92,6 +92,7 @@ TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
       EXPECT_EQ(read.compare, want.compare) << i << k;
       EXPECT_EQ(read.threshold, want.threshold) << i << k;
       EXPECT_EQ(read.hysteresis, want.hysteresis) << i << k;
+      EXPECT_EQ(read.hold_ms, want.hold_ms) << i << k;
     }
   }
   const Augmentation &edge = plan.each[0], &valley = plan.each[1], &bump = plan.each[2];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "anatomy/base/random.h"
 #include "anatomy/parametric/parametric_patient.h"
 #include "anatomy/query/local_geometry_builder.h"
 #include "apps/station/assets.h"
@@ -20,7 +21,7 @@ namespace palpa::task_needle {
 namespace {
 
 constexpr double kSpeed = 0.030, kAbove = 0.020;  // m/s; m over the skin
-constexpr std::int64_t kTick = 1'000'000, kFrame = 16;
+constexpr std::int64_t kTick = 1'000'000, kEveryFrame = 16;
 
 struct Body {
   anatomy::Patient patient;
@@ -77,8 +78,8 @@ Way wayInto(Organ organ, RandomStream& draw) {
   const auto skin =
       static_cast<int>(&body().patient.organ(Organ::skin) - body().patient.organs.data());
   for (;;) {
-    const Vec3 p = middle + 0.030 * Vec3(draw.uniform(-1, 1), draw.uniform(-1, 1),
-                                         draw.uniform(-1, 1));
+    const Vec3 p =
+        middle + 0.030 * Vec3(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1));
     if (!isPlace(organ, p)) continue;
     const anatomy::SurfacePoint over = body().query.closest(skin, p);
     const Vec3 lean(draw.normal(0, 0.2), draw.normal(0, 0.2), draw.normal(0, 0.2));
@@ -99,7 +100,10 @@ class LedNeedle {
                           .settings = theTask(),
                           .taught_path = nullptr,
                           .X_ET = config_.X_ET,
-                          .plan = {TrialPlan{}}};
+                          .calibration_problem = {},
+                          .plan = {TrialPlan{}},
+                          .places = {},
+                          .augmentations = {}};
     task_ = std::make_unique<NeedleTask>(setup, bus_, channels_, *executive_);
   }
 
@@ -149,7 +153,7 @@ class LedNeedle {
     if (record.phase == haptics::NeedlePhase::inserted && !inserted_) entry_A_ = tip_A;
     inserted_ = record.phase == haptics::NeedlePhase::inserted;
     bus_.haptic_to_task.push(record);
-    if (count_++ % kFrame != 0) return;
+    if (count_++ % kEveryFrame != 0) return;
     runtime::CameraView view;
     view.t_exposure_ns = now_;
     view.tracking = ar::TrackState::tracked;
@@ -200,9 +204,9 @@ TEST(Aspiration, OnlyTheVeinToldRightIsSuccess) {
       needle.aspirate(wayInto(organ, draw));
       ASSERT_TRUE(needle.status().asked);
       needle.say(said);
-      const Outcome expected = !assess::isRight(said, gives)  ? Outcome::mistaken
+      const Outcome expected = !assess::isRight(said, gives) ? Outcome::mistaken
                                : gives == Tissue::vein_lumen ? Outcome::success
-                                                              : Outcome::none;
+                                                             : Outcome::none;
       EXPECT_EQ(needle.outcome(), expected) << name(organ) << ", said " << assess::name(said);
       if (expected != Outcome::none) continue;
       needle.hold(3);

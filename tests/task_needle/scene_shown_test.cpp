@@ -20,7 +20,7 @@ TaskStatus statusOf(training::Role role) {
   status.role = role;
   status.force_feedback = false;
   status.step = "Phase 2: advance to the vein";
-  status.blood_flows = true;
+  status.flows = Tissue::vein_lumen;
   status.blood = 0.4;
   return status;
 }
