@@ -144,16 +144,17 @@ Vec3 PalpatingHand::thoughtOver(Vec3 p_P) const {
   return p_P;
 }
 
-/// At the first that waits and whose surroundings were felt as far as they will be.
+/// At the first that waits and whose surroundings were felt as far as they will be: first at the
+/// hill's top, and where that was none, at the place itself.
 bool PalpatingHand::lookCloser() {
   while (!waiting_.empty()) {
     const FeltPress felt = waiting_.front();
     if (skill_.feels_around && !places_.empty() && places_.back().x() < felt.p_P.x() + kAround)
       return false;
-    waiting_.erase(waiting_.begin());
-    if (memory_.firmness(felt) <= skill_.looks_closer || known(felt.p_P)) continue;
-    const Vec3 top = thoughtOver(felt.p_P);
-    if (known(top)) continue;
+    const Vec3 top = felt.looked ? felt.p_P : thoughtOver(felt.p_P);
+    waiting_.front().looked = true;
+    if (felt.looked || across(top, felt.p_P) < kSame) waiting_.erase(waiting_.begin());
+    if (memory_.firmness(felt) <= skill_.looks_closer || known(felt.p_P) || known(top)) continue;
     suspect_P_ = top;
     rounds_left_ = skill_.rounds;
     closer_.assign(1, felt);

@@ -24,6 +24,7 @@ struct FeltPress {
   /// M to what belongs there and is felt, as far as one knows of it; the same everywhere: one knows
   /// of none
   double from_normal = 0;
+  bool looked = false;  ///< the hill that it is on was looked at
 };
 
 double across(const Vec3& a, const Vec3& b);  ///< m, along the top

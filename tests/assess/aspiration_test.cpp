@@ -111,8 +111,11 @@ double metricOf(const TrialAssessment& a, const std::string& name) {
 }
 
 TEST(Waiting, IsNotInTime) {
+  ScoringRules rules;
+  rules.told_within_s = 10;
   std::vector<TrialSample> samples = textbook().samples();
-  const TrialAssessment swift = assess(samples);
+  EXPECT_EQ(metricOf(assess(samples), "aspirate_told"), -1) << "these rules do not ask";
+  const TrialAssessment swift = assess(samples, "success", rules);
   EXPECT_TRUE(std::isnan(metricOf(swift, "aspirate_told"))) << "nobody asked";
   const double end = samples.back().t_s;
   for (int i = 0; i < 4000; ++i) {  // in the vein, until it is said
@@ -120,10 +123,10 @@ TEST(Waiting, IsNotInTime) {
     samples.back().t_s += 1e-3;
     samples.back().waiting = true;
   }
-  const TrialAssessment told = assess(samples);
+  const TrialAssessment told = assess(samples, "success", rules);
   EXPECT_EQ(told.values.time_ms, swift.values.time_ms);
   EXPECT_EQ(metricOf(told, "aspirate_told"), 1);
-  const TrialAssessment silent = assess(samples, "mistaken");
+  const TrialAssessment silent = assess(samples, "mistaken", rules);
   EXPECT_NEAR(silent.values.time_ms, 1000 * end, 2);
   EXPECT_EQ(metricOf(silent, "aspirate_told"), 0);
   EXPECT_NE(silent.summary.find("not recognised"), std::string::npos) << silent.summary;

@@ -53,11 +53,17 @@ inline assess::TrialAssessment judged(const palpa::test::Script& script, std::ui
   const anatomy::Patient& patient = referencePatient(side);
   const anatomy::LandmarkFrame frame(patient);
   const calibration::TaughtPath& path = shippedPath(side);
-  const std::vector<assess::TrialSample> samples =
+  std::vector<assess::TrialSample> samples =
       palpa::test::ScriptedHand(script, frame, path, draw).trial();
+  assess::ScoringRules rules;
+  rules.told_within_s = 10;
+  if (palpa::test::succeeds(script)) {  // it is asked what was aspirated, and told
+    samples.push_back(samples.back());
+    samples.back().waiting = true;
+  }
   return assess::assessTrial(
       assess::test::facts(palpa::test::succeeds(script) ? "success" : "aborted"), samples, patient,
-      assess::OrganDistance(assess::test::nowhere), path, {});
+      assess::OrganDistance(assess::test::far), path, rules);
 }
 
 inline Figures figuresOf(const assess::TrialAssessment& a) {

@@ -121,9 +121,9 @@ TEST(Verdict, NobodyPassesWithoutARaterOrInPractice) {
   };
   const Verdict alone = judgedWith(kAssessed, {}, {});
   EXPECT_EQ(alone.status, Status::not_certified);
-  EXPECT_EQ(alone.score.open, 8);
+  EXPECT_EQ(alone.score.open, 7);
   ASSERT_EQ(alone.reasons.size(), 2u);
-  EXPECT_EQ(alone.reasons[0], "Checklist: 15 of 23 items done; 8 need a rater; 98 % is asked for.");
+  EXPECT_EQ(alone.reasons[0], "Checklist: 16 of 23 items done; 7 need a rater; 98 % is asked for.");
   EXPECT_EQ(alone.reasons[1], "No global rating was given.");
   EXPECT_EQ(judgedWith(kAssessed, ratersItemsDone(list), {}).status, Status::not_certified);
   EXPECT_EQ(
@@ -205,11 +205,19 @@ TEST(Verdict, ANeedleThatWasNeverInsertedHasDoneNothingWell) {
     EXPECT_NE(m.mark, Mark::done) << m.item->id;
 }
 
+/// What nobody asked in an older trial, a rater may have heard.
+TEST(Verdict, ARaterSaysWhatNoFigureWasKeptOf) {
+  const Checklist list = shippedChecklist();
+  Answers said = ratersItemsDone(list);
+  said["dark"] = kDone;
+  EXPECT_EQ(judge(kAssessed, list, noFigures, said, nullptr, {}, 0.98).score.open, 16);
+}
+
 TEST(Verdict, AFigureThatAnOldRecordLacksLeavesTheItemOpen) {
   const Checklist list = shippedChecklist();
   const Verdict v = judge(kAssessed, list, noFigures, ratersItemsDone(list), nullptr, {}, 0.98);
   EXPECT_EQ(v.status, Status::not_certified);
-  EXPECT_EQ(v.score.open, 16);
+  EXPECT_EQ(v.score.open, 17);
   EXPECT_TRUE(v.critical.empty());
 }
 

@@ -268,7 +268,7 @@ std::vector<Kind> patientKinds() {
        .samples = {{"tasks/paracentesis_expert_path.json", json::object()},
                    {"tasks/paracentesis_published_expert_path.json", json::object()}},
        .read = [](const fs::path& file) { calibration::readExpertPath(file); },
-       .stricter = {"/direction_L.*"},  // a unit vector
+       .stricter = {"/direction(_L)?/.*"},  // a unit vector
        .forgiving = {},
        .elsewhere = {}},
       {.name = "seeds",

@@ -35,21 +35,6 @@ std::string titleOf(const Rule& rule) {
   return definition ? definition->title : rule.metric;
 }
 
-MarkedItem byFigures(const ChecklistItem& item, const Figures& figures) {
-  MarkedItem marked{&item, Mark::done, ""};
-  for (const Rule& rule : item.rules) {
-    const std::optional<double> value = figures(rule.metric);
-    if (!value) return {&item, Mark::open, titleOf(rule) + " was not kept"};
-    if (std::isnan(*value))
-      marked = {&item, item.may_not_arise ? Mark::did_not_arise : Mark::not_done,
-                item.may_not_arise ? "" : titleOf(rule) + ": it did not come to that"};
-    else if (!rule.holds(*value))
-      return {&item, Mark::not_done,
-              titleOf(rule) + ": " + withUnit(*value, rule.metric) + " (" + limits(rule) + ")"};
-  }
-  return marked;
-}
-
 MarkedItem byRater(const ChecklistItem& item, const Answers& rater) {
   const auto said = rater.find(item.id);
   if (said == rater.end()) return {&item, Mark::open, ""};
@@ -58,6 +43,26 @@ MarkedItem byRater(const ChecklistItem& item, const Answers& rater) {
           : said->second == kNotDone ? Mark::not_done
                                      : Mark::did_not_arise,
           ""};
+}
+
+/// Where a figure was not kept, a rater may say it.
+MarkedItem byFigures(const ChecklistItem& item, const Figures& figures, const Answers& rater) {
+  MarkedItem marked{&item, Mark::done, ""};
+  for (const Rule& rule : item.rules) {
+    const std::optional<double> value = figures(rule.metric);
+    if (!value) {
+      MarkedItem said = byRater(item, rater);
+      if (said.mark == Mark::open) said.why = titleOf(rule) + " was not kept";
+      return said;
+    }
+    if (std::isnan(*value))
+      marked = {&item, item.may_not_arise ? Mark::did_not_arise : Mark::not_done,
+                item.may_not_arise ? "" : titleOf(rule) + ": it did not come to that"};
+    else if (!rule.holds(*value))
+      return {&item, Mark::not_done,
+              titleOf(rule) + ": " + withUnit(*value, rule.metric) + " (" + limits(rule) + ")"};
+  }
+  return marked;
 }
 
 void judgeCritical(const Checklist& checklist, const Figures& figures, Verdict* v,
@@ -133,7 +138,7 @@ std::vector<MarkedItem> marked(const Checklist& checklist, const Figures& figure
                                const Answers& rater) {
   std::vector<MarkedItem> all;
   for (const ChecklistItem& item : checklist.items)
-    all.push_back(item.byRater() ? byRater(item, rater) : byFigures(item, figures));
+    all.push_back(item.byRater() ? byRater(item, rater) : byFigures(item, figures, rater));
   return all;
 }
 

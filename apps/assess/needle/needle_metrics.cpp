@@ -241,9 +241,6 @@ std::vector<MetricValue> needleMetrics(const TrialReview& r, const TrialAssessme
       {"skin_punctures", static_cast<double>(a.skin_punctures)},
       {"redirections", static_cast<double>(a.redirections)},
       {"needle_passes", static_cast<double>(passes)},
-      {"aspirate_told", !r.asked                                   ? kDoesNotApply
-                        : a.outcome == training::Outcome::mistaken ? 0.0
-                                                                   : 1.0},
       {"first_pass_success", v.success && passes == 1 ? 1.0 : 0.0},
       {"closest_pleura_mm", orNone(a.closest_pleura_mm)},
       {"closest_pleura_at_s",
@@ -254,6 +251,10 @@ std::vector<MetricValue> needleMetrics(const TrialReview& r, const TrialAssessme
       {"frechet_mm", 1e3 * metrics::frechet(advance, taught)},
       {"hausdorff_mm", 1e3 * metrics::hausdorff(advance, taught)},
       {"warped_mm", 1e3 * metrics::timeWarped(advance, taught)}};
+  if (rules.told_within_s > 0)
+    all.push_back({"aspirate_told", !r.asked                                   ? kDoesNotApply
+                                    : a.outcome == training::Outcome::mistaken ? 0.0
+                                                                               : 1.0});
   for (MetricValue& m : techniqueMetrics(r, a.errors, frame, path, rules))
     all.push_back(std::move(m));
   for (MetricValue& m : motionMetrics(r.samples, rules)) all.push_back(std::move(m));
