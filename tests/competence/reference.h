@@ -25,15 +25,14 @@ inline const anatomy::Patient& referencePatient(anatomy::Side side) {
   return side == anatomy::Side::right ? right : left;
 }
 
-/// The shipped path on the reference patient.
+/// The shipped path on a patient; on the reference patient.
+inline calibration::TaughtPath pathOn(const anatomy::Patient& patient) {
+  return calibration::readExpertPath(PALPA_SOURCE_DIR "/assets/tasks/paracentesis_expert_path.json")
+      .onBody(assess::teachingLineOf(patient, anatomy::SurfaceQuery(patient)));
+}
 inline const calibration::TaughtPath& shippedPath(anatomy::Side side = anatomy::Side::right) {
-  const auto on = [](const anatomy::Patient& patient) {
-    return calibration::readExpertPath(PALPA_SOURCE_DIR
-                                       "/assets/tasks/paracentesis_expert_path.json")
-        .onBody(assess::teachingLineOf(patient, anatomy::SurfaceQuery(patient)));
-  };
-  static const calibration::TaughtPath right = on(referencePatient(anatomy::Side::right)),
-                                       left = on(referencePatient(anatomy::Side::left));
+  static const calibration::TaughtPath right = pathOn(referencePatient(anatomy::Side::right)),
+                                       left = pathOn(referencePatient(anatomy::Side::left));
   return side == anatomy::Side::right ? right : left;
 }
 inline Checklist shippedChecklist() {
