@@ -1,6 +1,7 @@
 #include "apps/session/needle_session.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -44,6 +45,17 @@ std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const Ne
   return trials;
 }
 
+/// Of a device with four buttons those that do nothing else, in their order.
+std::array<std::uint32_t, 3> answerButtons(const station::Station& station) {
+  std::array<std::uint32_t, 3> answers{};
+  if (station.device.driver != station::DeviceDriver::falcon) return answers;
+  const std::uint32_t used = station.device.plunger_button | station.safety.deadman_button;
+  std::size_t given = 0;
+  for (std::uint32_t button = 1; button <= 8 && given < answers.size(); button <<= 1)
+    if (!(button & used)) answers[given++] = button;
+  return answers;
+}
+
 int skinOf(const anatomy::Patient& patient) {
   const anatomy::OrganSurface& skin = patient.organ(Organ::skin);
   return static_cast<int>(&skin - patient.organs.data());
@@ -85,7 +97,8 @@ class NeedleSession {
             .calibration_problem = whyNotScored(options_, world_),
             .plan = plan(options_, world_, person),
             .places = frame_.places(),
-            .augmentations = world_.tickConfig().augmentations};
+            .augmentations = world_.tickConfig().augmentations,
+            .answers = answerButtons(world_.station)};
   }
 
   task_needle::NeedleSceneSetup sceneSetup() {

@@ -46,7 +46,7 @@ TEST(Planted, DeviationsCostTheMoreTheLargerTheyAreOnEveryBody) {
   const anatomy::Population population =
       anatomy::readPopulation(station::assetFile("patients/reference.json").string());
   int admitted = 0;
-  for (std::uint64_t seed = 1; seed <= palpa::test::counted(3u, 200u); ++seed) {
+  for (std::uint64_t seed = 1; seed <= palpa::test::counted(2u, 200u); ++seed) {
     anatomy::PatientParameters p = anatomy::drawParameters(
         population, seed % 2 ? anatomy::Side::left : anatomy::Side::right, seed);
     p.extent = anatomy::Extent::bust;

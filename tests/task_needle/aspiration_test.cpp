@@ -103,7 +103,8 @@ class LedNeedle {
                           .calibration_problem = {},
                           .plan = {TrialPlan{}},
                           .places = {},
-                          .augmentations = {}};
+                          .augmentations = {},
+                          .answers = {2, 4, 8}};
     task_ = std::make_unique<NeedleTask>(setup, bus_, channels_, *executive_);
   }
 
@@ -121,6 +122,12 @@ class LedNeedle {
     channels_.requests_to_task.push(
         {trial::UserCommand::choose, std::to_string(1 + static_cast<int>(taken))});
     hold(0.1);
+  }
+  void press(std::uint32_t button) {
+    buttons_ = button;
+    hold(0.05);
+    buttons_ = 0;
+    hold(0.05);
   }
   const TaskStatus& status() {
     if (const TaskStatus* told = channels_.status_to_scene.read(now_)) status_ = *told;
@@ -146,6 +153,7 @@ class LedNeedle {
     reading.sequence = static_cast<std::uint64_t>(1 + count_);
     reading.homed = 1;
     reading.plunger = plunger;
+    reading.buttons = buttons_;
     reading.p_DE = pack(tip_A);
     reading.q_DE = pack(X).q;
     const haptics::FlightRecord record =
@@ -172,6 +180,7 @@ class LedNeedle {
   TaskStatus status_;
   Vec3 tip_A_ = Vec3::Zero(), axis_A_ = Vec3::UnitZ(), entry_A_ = Vec3::Zero();
   bool inserted_ = false;
+  std::uint32_t buttons_ = 0;
   std::int64_t now_ = 0, count_ = 0;
 };
 
@@ -214,6 +223,19 @@ TEST(Aspiration, OnlyTheVeinToldRightIsSuccess) {
       EXPECT_EQ(needle.outcome(), Outcome::none);
     }
   }
+}
+
+TEST(Aspiration, ADevicesButtonsTellItToo) {
+  RandomStream draw(34, "test.aspiration");
+  LedNeedle vein, artery;
+  vein.aspirate(wayInto(Organ::vein, draw));
+  vein.press(2);
+  EXPECT_EQ(vein.outcome(), training::Outcome::success);
+  artery.aspirate(wayInto(Organ::artery, draw));
+  artery.press(1);  // no button for an answer
+  EXPECT_EQ(artery.outcome(), training::Outcome::none);
+  artery.press(8);
+  EXPECT_EQ(artery.outcome(), training::Outcome::mistaken);
 }
 
 TEST(Aspiration, WhoSaysNothingForTenSecondsHasNotRecognisedIt) {
