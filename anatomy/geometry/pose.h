@@ -51,5 +51,8 @@ Quat turnBetween(const Vec3& from, const Vec3& to);
 
 /// Any rotation that takes +z to the unit vector `z`.
 Mat3 rotationWithZ(const Vec3& z);
+/// The same with its y as near to `y_toward` as that lets it be; where the two are parallel, as
+/// above.
+Mat3 rotationWithZ(const Vec3& z, const Vec3& y_toward);
 
 }  // namespace palpa

@@ -22,6 +22,8 @@ constexpr double kSmoothing = 0.03;   // s, the mouse's steps become motion
 constexpr std::int64_t kControllerGone = 300 * runtime::kMillisecond;
 constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
 
+const Vec3 kBevelUp(0, -1, 0.3);  // in A: no key turns the needle about itself
+
 constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped",
                                         "other"};
 
@@ -125,7 +127,7 @@ Pose MouseHand::pointedByMouse(const MouseRequest& request) const {
   const Vec3 axis_A = (-a.normal_A + std::tan(request.turn_medial) * screen_right.normalized() +
                        std::tan(request.turn_cephalad) * a.cephalad_A)
                           .normalized();
-  return makePose(rotationWithZ(axis_A), unpack(request.tip_A) + request.along * axis_A);
+  return makePose(rotationWithZ(axis_A, kBevelUp), unpack(request.tip_A) + request.along * axis_A);
 }
 
 std::int64_t MouseHand::step(std::int64_t now_ns) {

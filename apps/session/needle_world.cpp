@@ -128,6 +128,7 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
 haptics::TickConfig NeedleWorld::tickConfig() const {
   haptics::TickConfig config;
   config.materials = needle.materials;
+  config.materials.skin.K_0 *= haptics::loadOf(station.tool_shape);
   config.coupling = station.coupling;
   config.safety = station.safety;
   config.passivity = station.passivity;

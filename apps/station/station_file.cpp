@@ -28,6 +28,7 @@ calibration::CameraModel readCamera(const JsonFile& file) {
 }
 
 const EnumNames<CameraDriver> kCameraDrivers{"bench", "webcam"};
+const EnumNames<haptics::ToolShape> kToolShapes{"point", "line", "flat"};
 
 /// What is not there is the bench's.
 CameraSetup readCameraSetup(const JsonFile& file) {
@@ -160,6 +161,7 @@ Station readStation(const std::filesystem::path& path) {
   s.decimate = file.number("camera/decimate", 1, 4);
   s.X_WD = readPose(file, "registration/X_WD");
   s.X_ET = readPose(file, "tool/X_ET");
+  if (file.has("tool/shape")) s.tool_shape = kToolShapes.in(file, "tool/shape");
   if (file.has("second_device")) s.second_X_WD = readPose(file, "second_device/X_WD");
   s.entry_W = kMm * unpack(file.triple("patient/entry_mm"));
   readLimits(file, s);

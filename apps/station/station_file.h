@@ -10,6 +10,7 @@
 #include "ar/boards/board.h"
 #include "calibration/camera_model.h"
 #include "haptics/contact/contact_parts.h"
+#include "haptics/contact/needle_materials.h"
 #include "haptics/loop/workspace_correction.h"
 #include "haptics/safety/passivity.h"
 #include "haptics/safety/safety_limiter.h"
@@ -86,6 +87,7 @@ struct Station {
   haptics::WorkspaceCorrection workspace;  ///< of the device's readings
   Pose X_WD = Pose::Identity();            ///< haptic base on the table: registration
   Pose X_ET = Pose::Identity();            ///< needle tip in the end effector: tool calibration
+  haptics::ToolShape tool_shape = haptics::ToolShape::point;  ///< that presses on the skin
   /// of another device of the same make, for what takes two tools
   std::optional<Pose> second_X_WD;
   /// Where the patient's entry point lies: within the hand's reach, whoever the patient is

@@ -1,11 +1,13 @@
 #include "apps/task_search/search_scene.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace palpa::task_search {
 
 Vec3 shownPoint(const Pose& X_AF, double magnification, const Vec3& p_F) {
-  return X_AF * Vec3(magnification * p_F);
+  return X_AF * Vec3(magnification * p_F.x(), magnification * p_F.y(),
+                     magnification * std::max(p_F.z(), 0.0));
 }
 
 SearchScene::SearchScene(const SearchSceneSetup& setup, runtime::Bus& bus, SearchChannels& channels)

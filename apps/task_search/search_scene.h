@@ -31,7 +31,9 @@ class SearchScene final : public trial::TrialScene {
   SearchStatus status_;
 };
 
-/// A point of the hand's floor as it is shown, in A; both frames meet in the floor's middle.
+/// A point of the hand's floor as it is shown, in A; both frames meet in the floor's middle. Under
+/// a floor that gives way it is shown on the floor: magnified, what is pressed in would be far
+/// below.
 Vec3 shownPoint(const Pose& X_AF, double magnification, const Vec3& p_F);
 
 }  // namespace palpa::task_search

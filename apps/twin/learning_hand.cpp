@@ -37,7 +37,7 @@ OperatorSkill between(const OperatorSkill& from, const OperatorSkill& to, double
   return mixed(from, to, level, &S::grip, &S::tremor_rms, &S::turn_tremor_rms, &S::look_sd,
                &S::depth_sd, &S::entry_sd, &S::normal_sd, &S::direction_sd, &S::travel_speed,
                &S::push_speed, &S::advance_speed, &S::withdraw_speed, &S::turn_time, &S::pause,
-               &S::reaction, &S::notice_puncture_N, &S::notice_bone_N, &S::redirect,
+               &S::reaction, &S::notice_puncture_N, &S::notice_bone_N, &S::bevel_sd, &S::redirect,
                &S::redirect_sd, &S::guide, &S::redirections, &S::first_depth, &S::vein_distance,
                &S::search_margin, &S::aim_offset_L);
 }

@@ -45,7 +45,7 @@ Operator::Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, co
       reaction_(skill.reaction) {}
 
 Pose Operator::needleAt(const Vec3& tip_A, const Vec3& axis_A) const {
-  return makePose(rotationWithZ(axis_A), tip_A);
+  return makePose(rotationWithZ(axis_A, bevel_A_), tip_A);
 }
 
 double Operator::seenInsertion() const {
@@ -82,6 +82,15 @@ void Operator::begin(NeedleStep step, double now_s, double pause_s) {
   peak_N_ = 0;
 }
 
+/// Bevel up: toward the front of the patient who lies there, and a little to the head, which is up
+/// while the needle stands on the skin. About the way to the middle of the body it is turned by
+/// chance.
+Vec3 Operator::bevelOf(int trial) const {
+  RandomStream chance(seed_, "operator.bevel." + std::to_string(trial));
+  return Eigen::AngleAxisd(skill_.bevel_sd * chance.normal(), anatomy_.medial_A) *
+         (0.3 * anatomy_.cephalad_A - anatomy_.posterior_A);
+}
+
 void Operator::beginTrial(int trial, double now_s) {
   trial_ = trial;
   passes_ = nudges_ = 0;
@@ -94,6 +103,7 @@ void Operator::beginTrial(int trial, double now_s) {
                                                             j.normal() * anatomy_.cephalad_A))
                        .normalized();
   depth_error_ = j.normal(0, skill_.depth_sd);
+  bevel_A_ = bevelOf(trial);
   entry_seen_A_ = plan_entry_A_;
   moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
          skill_.travel_speed);

@@ -34,6 +34,7 @@ struct OperatorSkill {
   double reaction = 0.2;           ///< s, from seeing or feeling to acting
   double notice_puncture_N = 0.4;  ///< loss of resistance that is felt
   double notice_bone_N = 0.7;      ///< sideways force that is felt as bone
+  double bevel_sd = 0.17;          ///< rad, turning the bevel up, per trial
   double redirect = 0.06;          ///< rad, turning away after bone or a dry pass
   double redirect_sd = 0.01;       ///< rad
   double guide = 0;      ///< rad, first aimed this much toward the clavicle, to find it by touch
@@ -88,6 +89,7 @@ class Operator final : public Hand {
   };
 
   int tells();
+  Vec3 bevelOf(int trial) const;
   void look(const Senses& senses);
   void feel(const Senses& senses);
   void think(const Senses& senses);
@@ -132,6 +134,7 @@ class Operator final : public Hand {
   bool running_ = false;
   int passes_ = 0;
   bool gives_up_ = false;
+  Vec3 bevel_A_ = Vec3::UnitY();  ///< whither its opening is turned
   Vec3 plan_entry_A_ = Vec3::Zero(), plan_normal_A_ = Vec3::UnitZ(), axis_A_ = Vec3::UnitZ();
   Vec3 tip_A_ = Vec3::Zero();  ///< wanted
   double insertion_ = 0;       ///< wanted, along axis_A_ from the entry

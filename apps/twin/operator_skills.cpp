@@ -23,6 +23,7 @@ OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
   s.entry_sd = kMm * file.number("entry_sd_mm", 0, 50);
   s.normal_sd = kDegree * file.number("normal_sd_deg", 0, 90);
   s.direction_sd = kDegree * file.number("direction_sd_deg", 0, 90);
+  s.bevel_sd = kDegree * file.number("bevel_sd_deg", 0, 180);
   s.travel_speed = kMm * file.number("travel_speed_mm_per_s", 1, 2000);
   s.push_speed = kMm * file.number("push_speed_mm_per_s", 0.1, 500);
   s.advance_speed = kMm * file.number("advance_speed_mm_per_s", 0.1, 500);

@@ -22,6 +22,7 @@ constexpr std::int64_t kOverview_ns = 100'000'000;  // 10 Hz
 constexpr double kLetGo_s = 1.4;      // after the episode begins on the screen the handle is free
 constexpr double kDescent = 0.010;    // m/s
 constexpr double kPressGain = 0.004;  // m/s more for every newton too little
+constexpr double kOnFloor = 1e-6;     // m
 constexpr double kStay_s = 0.9;       // in a middle, before looking round
 constexpr double kStroke_U = 18;      // amplitude: within the texture
 constexpr double kSpiral_U = 12, kSpiralPitch_U = 4;
@@ -88,6 +89,9 @@ class SearchingHand final : public Hand {
         R_FT_ = X_FT.rotation();
         goal_U_ = X_FT.translation() / floor_.unit;
         way_.p = X_FT.translation();
+      } else if (X_FT.translation().z() < kOnFloor) {
+        // How far it is pressed into the floor the picture does not say.
+        X_FT.translation().z() = (bearings_.X_DA().inverse() * X_DT).translation().z();
       }
       bearings_.look(X_FT, X_DT, skill_.look_sd, speed_, glance_);
     }

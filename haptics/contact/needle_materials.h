@@ -7,6 +7,15 @@
 
 namespace palpa::haptics {
 
+/// With what a tool presses on the skin.
+enum class ToolShape : std::uint8_t { point, line, flat };
+
+/// K_0 of a line or a flat side in that of a point: about 2 and 4. Source: Tzafestas et al.,
+/// Presence 17(2), 2008.
+constexpr double loadOf(ToolShape shape) {
+  return shape == ToolShape::point ? 1 : shape == ToolShape::line ? 2 : 4;
+}
+
 /// Skin before puncture, indentation u along the inward normal [m]; point load:
 ///     K(u) = K_min                                u <= u_0
 ///     K(u) = K_0 (exp(m (u - u_0)) - 1) + K_min   u >  u_0        F = K(u) u

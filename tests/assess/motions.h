@@ -122,6 +122,7 @@ class Motion {
  private:
   void write() {
     now_.t_s = time();
+    now_.bevel_A = rotationWithZ(now_.axis_A, Vec3(0, -1, 0.3)).col(1);  // up
     now_.events = events_;
     events_ = 0;
     samples_.push_back(now_);

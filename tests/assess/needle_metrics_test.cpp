@@ -40,6 +40,15 @@ TEST(MetricTable, ANeedleTrialHasAllOfANeedlesFiguresAndNoOther) {
   EXPECT_EQ(has, wanted);
 }
 
+TEST(NeedleMetrics, TheBevelIsJudgedAsTheAdvanceBegins) {
+  std::vector<TrialSample> samples = textbook().samples();
+  EXPECT_LT(metric(assess(samples), "bevel_off_deg"), 20);
+  for (TrialSample& s : samples) s.bevel_A = Eigen::AngleAxisd(1.5, s.axis_A) * s.bevel_A;
+  EXPECT_NEAR(metric(assess(samples), "bevel_off_deg"), 1.5 * 180 / M_PI, 20);
+  for (TrialSample& s : samples) s.bevel_A = Vec3::Zero();
+  EXPECT_TRUE(std::isnan(metric(assess(samples), "bevel_off_deg"))) << "not known";
+}
+
 // 10 mm to the skin, 8 mm in, a turn about the tip by 65 degrees (20 degrees/s), 30 mm on.
 TEST(NeedleMetrics, OfATextbookTrial) {
   const TrialAssessment a = assess(textbook().samples());

@@ -102,6 +102,10 @@ constexpr MetricDefinition kMetrics[] = {
      "skin punctures plus redirections: every advance of the needle", ""},
     {"first_pass_success", "Success at the first pass", "1", higher, "needle",
      "1 when the goal was reached in the first needle pass, else 0", ""},
+    {"bevel_off_deg", "Bevel turned from up", "deg", lower, "needle",
+     "angle of the bevel's opening from the front of the patient, about the needle, as the advance "
+     "begins",
+     "phase 2 was not reached"},
     {"aspirate_told", "What was aspirated, told", "1", higher, "needle",
      "1 when vein, artery or neither was told right each time that it was asked, else 0",
      "nobody asked"},

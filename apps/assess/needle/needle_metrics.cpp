@@ -160,6 +160,16 @@ double speedAtVein(Samples samples) {
   return seconds > 0 ? (samples[at].tip_A - samples[from].tip_A).norm() / seconds : kDoesNotApply;
 }
 
+/// Of the bevel's opening from up, about the needle; up is the front of the patient who lies there.
+double bevelOff(const TrialReview& r, const anatomy::LandmarkFrame& frame) {
+  if (!r.pass || !r.pass->advanced || r.pass->start_of_phase_2.bevel_A.isZero())
+    return kDoesNotApply;
+  const TrialSample& s = r.pass->start_of_phase_2;
+  const Vec3 up_A = frame.vectorToA(-Vec3::UnitY()),
+             across_A = up_A - up_A.dot(s.axis_A) * s.axis_A;
+  return angleBetween(s.bevel_A, across_A);
+}
+
 /// The tip's way from the turn to the end of the scored pass.
 metrics::Curve advanceOf(const TrialReview& r) {
   metrics::Curve curve;
@@ -251,6 +261,7 @@ std::vector<MetricValue> needleMetrics(const TrialReview& r, const TrialAssessme
       {"frechet_mm", 1e3 * metrics::frechet(advance, taught)},
       {"hausdorff_mm", 1e3 * metrics::hausdorff(advance, taught)},
       {"warped_mm", 1e3 * metrics::timeWarped(advance, taught)}};
+  all.push_back({"bevel_off_deg", kDegrees * bevelOff(r, frame)});
   if (rules.told_within_s > 0)
     all.push_back({"aspirate_told", !r.asked                                   ? kDoesNotApply
                                     : a.outcome == training::Outcome::mistaken ? 0.0

@@ -19,6 +19,7 @@ struct TrialSample {
   double t_s = 0;  ///< since the trial's start
   Vec3 tip_A = Vec3::Zero();
   Vec3 axis_A = Vec3::UnitZ();  ///< unit, toward the tip
+  Vec3 bevel_A = Vec3::Zero();  ///< unit, whither the bevel's opening faces; zero: not known
   haptics::NeedlePhase phase = haptics::NeedlePhase::outside;
   Tissue tissue = Tissue::air;
   Organ wall = Organ::none;

@@ -23,6 +23,7 @@ bool TrialSampler::add(const haptics::FlightRecord& record, TrialSample* sample)
   sample->t_s = t_s_;
   sample->tip_A = X_AT.translation();
   sample->axis_A = X_AT.rotation() * Vec3::UnitZ();
+  sample->bevel_A = X_AT.rotation() * Vec3::UnitY();
   sample->phase = record.phase;
   sample->tissue = record.tissue;
   sample->wall = record.wall;
