@@ -32,9 +32,8 @@ haptics::TickConfig floorConfig(const task_search::SearchSettings& task,
   config.X_ET = pack(station.X_ET);
   config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
   config.floor = task_search::renderingOn(task, station);
-  config.augmentations =
-      station::onDevice(task.augmentations, station.safety.max_force_N,
-                        station.device.capabilities.stable_stiffness, config.floor.unit);
+  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N,
+                                           station.coupling.stiffness, config.floor.unit);
   return config;
 }
 

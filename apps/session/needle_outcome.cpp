@@ -136,8 +136,9 @@ void writeRegistration(const std::vector<RegistrationRow>& rows,
 void sayResult(const SessionResult& result) {
   for (const auto& trial : result.trials) {
     const assess::TrialAssessment& a = trial.assessment;
-    const std::string total =
-        a.by_path ? format(" Total penalty %.1f (lower is better)", a.total) : "";
+    const std::string total = a.by_path && !a.penalties.empty()
+                                  ? format(" Total penalty %.1f (lower is better)", a.total)
+                                  : "";
     std::printf("Trial %d (%s%s): %s%s\n", a.trial, training::nameOf(a.role).c_str(),
                 a.simulated ? ", simulated" : "",
                 a.summary.empty() ? training::nameOf(a.outcome).c_str() : a.summary.c_str(),
@@ -177,6 +178,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
     writeRegistration(result.registration, folder / "registration.csv");
 
   sayResult(result);
+  if (!world.not_scored.empty()) std::printf("Not scored: %s\n", world.not_scored.c_str());
   std::printf("Written to %s:\n", folder.string().c_str());
   std::printf("  report.html     what happened, with reasons and pictures: open this first\n");
   std::printf(

@@ -20,7 +20,7 @@ constexpr double kLift = 0.05;  // m/s
 // m, of a closer look: its presses lie within 5 mm of each other; the search itself has felt the
 // flanks
 constexpr double kCross = 0.0035;
-constexpr double kKnown = 0.020;   // m: nobody looks twice at the same lump or its flank
+constexpr double kKnown = 0.014;   // m: nobody looks twice at the same lump or its flank
 constexpr double kAround = 0.016;  // m: as far as a lump is felt
 constexpr double kBelongs =
     0.017;  // m from the middle of what belongs there: farther off a lump would be felt as one

@@ -145,7 +145,10 @@ TEST(Patient, OfARealCtIsPunctured) {
   const Outcome held = palpa(
       session({"--patient", "ct.glb", "--operator-knows", "patient", "--out", "A"}), here.path());
   ASSERT_EQ(held.exit_code, 0) << held.err;
-  EXPECT_TRUE(says(held.out, "Vein reached")) << held.out;
+  EXPECT_TRUE(says(held.out, "Trial 1 (not scored, simulated): success\n")) << held.out;
+  EXPECT_TRUE(says(held.out, "Not scored: this patient's taught line is out of the range"))
+      << held.out;
+  EXPECT_TRUE(says(contentOf(here / "A/report.html"), "out of the range that can be scored"));
 }
 
 }  // namespace

@@ -27,10 +27,10 @@ std::string filledIn(const Folder& here, const std::string& item, const std::str
 TEST(Rate, FromTheFormToTheVerdict) {
   const Folder here;
   ASSERT_EQ(inHere({"records", "trainee", "add", "--id", "T001"}, here).exit_code, 0);
-  const Outcome run = palpa(
-      {"paracentesis", "--assess", "--operator", "expert", "--fast", "--no-views", "--station",
-       quickStation("virtual_bench.json"), "--seed", "801", "--trainee", "T001", "--out", "A"},
-      here.path());
+  const Outcome run = palpa({"paracentesis", "--assess", "--operator", "expert", "--fast",
+                             "--no-views", "--station", quickStation("virtual_bench.json"),
+                             "--seed", kShortTrial, "--trainee", "T001", "--out", "A"},
+                            here.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(says(run.out, "Assessment: every aid is off")) << run.out;
   EXPECT_TRUE(says(contentOf(here / "A/report.html"), "Not certified (simulated)"));
@@ -52,7 +52,7 @@ TEST(Rate, FromTheFormToTheVerdict) {
     const Outcome entered =
         inHere({"rate", "enter", "--session", "A", "--rater", rater, "--answers", sheet}, here);
     EXPECT_EQ(entered.exit_code, 0) << entered.err;
-    EXPECT_TRUE(says(entered.out, "24 of 24 items of the checklist, 6 of 6 grades")) << entered.out;
+    EXPECT_TRUE(says(entered.out, "25 of 25 items of the checklist, 6 of 6 grades")) << entered.out;
   }
   const Outcome agreement = inHere({"rate", "agreement"}, here);
   EXPECT_EQ(agreement.exit_code, 0) << agreement.err;
@@ -60,9 +60,9 @@ TEST(Rate, FromTheFormToTheVerdict) {
       says(agreement.out,
            "1 rated trial in the records file records.sqlite; simulated trials are among them"))
       << agreement.out;
-  EXPECT_TRUE(says(agreement.out, "Checklist, R1 and R2: 24 items, 100 % alike, no kappa"))
+  EXPECT_TRUE(says(agreement.out, "Checklist, R1 and R2: 25 items, 100 % alike, no kappa"))
       << agreement.out;
-  EXPECT_TRUE(says(agreement.out, "R1 and simulator: 16 items")) << agreement.out;
+  EXPECT_TRUE(says(agreement.out, "R1 and simulator: 18 items")) << agreement.out;
 
   const Outcome passed =
                     inHere({"report", "trial", "A", "--rater", "R1", "--out", "r1.html"}, here),

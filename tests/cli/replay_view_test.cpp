@@ -76,8 +76,8 @@ TEST(ReplayView, EveryTaskIsSeenAgain) {
     arguments.insert(arguments.end(),
                      {"--operator", "expert", "--seed", "3", "--trials", "1", "--out", "A"});
     ASSERT_EQ(palpa(quickly(arguments), here.path()).exit_code, 0) << task[0];
-    const Outcome outcome = palpa({"replay", "A/session.palpa", "--video", "a.avi", "--from", "2",
-                                   "--to", "6", "--speed", "4", "--size", "320x240"},
+    const Outcome outcome = palpa({"replay", "A/session.palpa", "--video", "a.avi", "--from", "1",
+                                   "--to", "3", "--speed", "2", "--size", "320x240"},
                                   here.path());
     ASSERT_EQ(outcome.exit_code, 0) << task[0] << outcome.err;
     const std::vector<cv::Mat> frames = framesOf(here / "a.avi");
