@@ -163,9 +163,11 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& f
   return f_passive_D;
 }
 
-/// The part of the commanded force that carries the handle: none where the limiter let none out.
-Vec3 heldBack(const FlightRecord& record, const TickFrame& frame) {
-  return unpack(record.f_command_D).squaredNorm() > 0 ? frame.f_hold_D : Vec3(Vec3::Zero());
+/// The part of the commanded force that the port owes nothing for: what carries the handle, and
+/// cues that heed no motion. None where the limiter let none out.
+Vec3 besidesThePort(const FlightRecord& record, const TickFrame& frame) {
+  if (unpack(record.f_command_D).squaredNorm() == 0) return Vec3::Zero();
+  return frame.f_hold_D + frame.fresh * frame.f_source_D;
 }
 
 void describe(const TickConfig& config, FlightRecord& record, const NeedleContact& contact,
@@ -292,8 +294,8 @@ const FlightRecord& finishTick(const TickConfig& config, TickState& state,
   record.f_wanted_D = pack(frame.input.f_wanted_D);
   describe(config, record, contact, state);
   record.f_command_D = pack(limitForce(config.safety, state.safety, frame.input));
-  state.passivity.f_last_D =  // what the hand really gets, beside what carries the handle
-      pack(Vec3(unpack(record.f_command_D) - heldBack(record, frame) +
+  state.passivity.f_last_D =  // what the hand really gets of it
+      pack(Vec3(unpack(record.f_command_D) - besidesThePort(record, frame) +
                 objectForce(config, record.sensed)));
   reportCause(record, state, frame.fresh);
   return record;

@@ -20,7 +20,9 @@ namespace {
 class Port {
  public:
   Port(const haptics::TickConfig& config, const Pose& X_FD)
-      : limits_(config.passivity), X_FD_(X_FD) {}
+      : limits_(config.passivity),
+        X_FD_(X_FD),
+        weight_D_(config.floor.weight_N * (X_FD.rotation().transpose() * Vec3::UnitZ())) {}
 
   /// Energy before this tick's own force, J.
   double energy(const haptics::FlightRecord& record) {
@@ -30,8 +32,10 @@ class Port {
     const double expected = energy_ - closed(record).dot(dx) + limits_.coulomb * dx.norm();
     energy_ = std::min(energy_, closed(record).norm() * limits_.reach);
     if (energy_ < 0) energy_ *= 1 - 0.001 / limits_.forget_tau;
-    // What was felt, the damping with it, without the cues that heed no motion.
-    last_f_D_ = unpack(record.f_wanted_D) - (unpack(record.f_augmentation_D) - pull(record));
+    // What the hand got, the damping with it, without the handle's weight and without the cues that
+    // heed no motion.
+    const Vec3 cue = unpack(record.f_augmentation_D) - pull(record);
+    last_f_D_ = unpack(record.f_command_D) - cue - weight_D_;
     last_p_D_ = p_D;
     started_ = true;
     return expected;
@@ -49,6 +53,7 @@ class Port {
 
   haptics::PassivityLimits limits_;
   Pose X_FD_;
+  Vec3 weight_D_;
   Vec3 last_f_D_ = Vec3::Zero(), last_p_D_ = Vec3::Zero();
   double energy_ = 0;
   bool started_ = false;
