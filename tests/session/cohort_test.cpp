@@ -152,7 +152,7 @@ TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
   printRules("expert", expert);
   printRules("novice", novice);
   printRules("expert without force feedback", numb);
-  // Tzafestas et al. 2008, table 4: 1,580 points without force feedback.
+  // Tzafestas et al. 2008, table 5: experienced users without force feedback.
   constexpr double kSource = 1580;
   EXPECT_GT(touch.mean_b, kSource / 3);
   EXPECT_LT(touch.mean_b, 3 * kSource);
