@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/record/session_file.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/session/needle_world.h"
 #include "apps/session/stage.h"
@@ -56,6 +57,16 @@ std::array<std::uint32_t, 3> answerButtons(const station::Station& station) {
   return answers;
 }
 
+/// What whoever held a recorded device said of what was aspirated.
+std::vector<std::pair<std::int64_t, assess::Taken>> saidIn(const station::Station& station) {
+  std::vector<std::pair<std::int64_t, assess::Taken>> said;
+  if (station.device.driver != station::DeviceDriver::replay) return said;
+  for (const runtime::Event& event : record::SessionReader(station.device.recording).events())
+    if (event.is(runtime::EventKind::answer) && event.value >= 1 && event.value <= 3)
+      said.emplace_back(event.t_ns, static_cast<assess::Taken>(static_cast<int>(event.value) - 1));
+  return said;
+}
+
 int skinOf(const anatomy::Patient& patient) {
   const anatomy::OrganSurface& skin = patient.organ(Organ::skin);
   return static_cast<int>(&skin - patient.organs.data());
@@ -98,7 +109,8 @@ class NeedleSession {
             .plan = plan(options_, world_, person),
             .places = frame_.places(),
             .augmentations = world_.tickConfig().augmentations,
-            .answers = answerButtons(world_.station)};
+            .answers = answerButtons(world_.station),
+            .said = saidIn(world_.station)};
   }
 
   task_needle::NeedleSceneSetup sceneSetup() {

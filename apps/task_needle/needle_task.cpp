@@ -39,6 +39,15 @@ NeedleTask::NeedleTask(const NeedleTaskSetup& setup, runtime::Bus& bus, TaskChan
   completed_.reserve(setup_.plan.size());
 }
 
+/// What a recorded hand said comes as it came.
+std::int64_t NeedleTask::step(std::int64_t now_ns) {
+  for (; said_ < setup_.said.size() && setup_.said[said_].first <= now_ns; ++said_)
+    channels_.operator_to_task.push(
+        {trial::UserCommand::choose,
+         std::to_string(1 + static_cast<int>(setup_.said[said_].second))});
+  return TrialTask::step(now_ns);
+}
+
 std::string NeedleTask::notReady(const haptics::FlightRecord& last) const {
   return last.phase != haptics::NeedlePhase::outside || last.depth > 0
              ? "the needle is in the skin: take it out"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "anatomy/query/surface_query.h"
@@ -66,6 +67,8 @@ struct NeedleTaskSetup {
   haptics::AugmentationPlan augmentations;  ///< as on this device
   /// Bits of DeviceReading::buttons that say vein, artery, neither; 0: the device has none for it.
   std::array<std::uint32_t, 3> answers{};
+  /// Of a recorded hand: what was said, and when in the session; ns.
+  std::vector<std::pair<std::int64_t, assess::Taken>> said;
 };
 
 /// The needle's trials: phases, success, time limit, score.
@@ -74,6 +77,7 @@ class NeedleTask final : public trial::TrialTask {
   NeedleTask(const NeedleTaskSetup& setup, runtime::Bus& bus, TaskChannels& channels,
              runtime::Executive& executive);
 
+  std::int64_t step(std::int64_t now_ns) override;
   const std::vector<CompletedTrial>& completed() const { return completed_; }
 
  private:
@@ -105,6 +109,7 @@ class NeedleTask final : public trial::TrialTask {
   assess::Syringe syringe_;
   assess::AspirationQuestion question_;
   std::uint32_t buttons_ = 0;                    ///< of the last tick
+  std::size_t said_ = 0;                         ///< of the setup's, so many
   double in_lumen_s_ = 0;                        ///< dwell with the plunger drawn
   std::array<double, kOrganCount> touched_s_{};  ///< trial time of the last contact, by Organ
   bool entered_vein_ = false;

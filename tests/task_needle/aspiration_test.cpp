@@ -104,7 +104,8 @@ class LedNeedle {
                           .plan = {TrialPlan{}},
                           .places = {},
                           .augmentations = {},
-                          .answers = {2, 4, 8}};
+                          .answers = {2, 4, 8},
+                          .said = {}};
     task_ = std::make_unique<NeedleTask>(setup, bus_, channels_, *executive_);
   }
 
