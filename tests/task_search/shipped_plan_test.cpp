@@ -131,11 +131,17 @@ TEST(ShippedPlan, PartsAreOnExactlyAsStated) {
   MeasuredSpeed measured;
   Wanderer wanderer;
   unsigned stated = 0;
-  std::array<int, 3> begun{};
+  std::array<int, 3> begun{}, held_at{};
   for (int i = 0; i < 120'000; ++i) {
     const Vec3 p = wanderer.next(i);
     const unsigned was = stated;
-    stated = statedParts(was, measured.next(p), p.z() < 0, onTexture(p));
+    const unsigned held = statedParts(was, measured.next(p), p.z() < 0, onTexture(p));
+    stated = 0;
+    for (unsigned part = 0; part < 3; ++part) {  // kept for 100 ms after it last held
+      const unsigned bit = 1u << part;
+      if (held & bit) held_at[part] = i;
+      if (held & bit || (was & bit && i - held_at[part] < 100)) stated |= bit;
+    }
     const FlightRecord at = loop.step(p);
     ASSERT_EQ(at.subtasks, stated) << i << ": " << measured.v.norm();
     for (unsigned part = 0; part < 3; ++part) begun[part] += (stated & ~was) >> part & 1u;
