@@ -160,21 +160,25 @@ export class LiveEvents {
       if (message.event === "note") this.notes.add(key);
     }
     this.list.querySelector(".none-yet")?.remove();
-    const more = joined(this.last, message);
-    this.last = more || momentOf({ ...message, tone });
+    // A note stands where it was heard of, in each browser elsewhere: it parts nothing.
+    const note = message.event === "note" || tone === "note",
+      more = note ? null : joined(this.last, message),
+      moment = more || momentOf({ ...message, tone });
+    if (!note) this.last = moment;
     if (more) {
       say(this.lastText, more.text);
       return false;
     }
-    const word = kWords[tone] ?? "";
-    this.lastText = h("span", {}, this.last.text);
+    const word = kWords[tone] ?? "",
+      text = h("span", {}, moment.text);
+    if (!note) this.lastText = text;
     this.list.prepend(
       h(
         "li",
         { class: `event ${tone}` },
         mark(tone),
         h("span", { class: "event-time" }, clock(message.t_s)),
-        h("span", {}, word ? h("strong", {}, `${word}: `) : null, this.lastText),
+        h("span", {}, word ? h("strong", {}, `${word}: `) : null, text),
       ),
     );
     return true;
