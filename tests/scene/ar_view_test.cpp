@@ -121,6 +121,34 @@ TEST_F(ArFrame, PictureOnTheSkinIsDrawnByItsCoordinatesInItsOwnColours) {
       << "white skin must not tint its picture";
 }
 
+/// Told apart by brightness alone, as by whoever sees no red.
+TEST_F(HeldTool, AnArterysBloodIsBrightAndAirIsBubbles) {
+  const auto seen = [&](Tissue of, double blood) {
+    SceneState state = withTool(true);
+    state.plunger = 0.6;
+    state.blood = blood;
+    state.blood_of = of;
+    return frameOf(nobody_, state);
+  };
+  const Image empty = seen(Tissue::vein_lumen, 0), vein = seen(Tissue::vein_lumen, 0.5),
+              artery = seen(Tissue::artery_lumen, 0.5), air = seen(Tissue::lung, 0);
+  double dark = 0, bright = 0;
+  long filled = 0, bubbles = 0;
+  for (int v = 0; v < empty.height; ++v)
+    for (int u = 0; u < empty.width; ++u) {
+      const Pixel none = at(empty, u, v), a = at(vein, u, v), b = at(artery, u, v),
+                  c = at(air, u, v);
+      bubbles += c.r > none.r + 20 && c.g > none.g + 20 && c.b > none.b + 20;
+      if (a.r == none.r && a.g == none.g) continue;
+      ++filled;
+      dark += 0.2126 * a.r + 0.7152 * a.g + 0.0722 * a.b;
+      bright += 0.2126 * b.r + 0.7152 * b.g + 0.0722 * b.b;
+    }
+  ASSERT_GT(filled, 50);
+  EXPECT_GT(bright, 1.3 * dark);
+  EXPECT_GT(bubbles, 10);
+}
+
 TEST_F(HeldTool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {
   const auto red = [&](double plunger, double blood) {
     SceneState state = withTool(true);

@@ -90,6 +90,17 @@ std::vector<Look> looks() {
          s.plunger = 0.6;
          s.blood = 0.4;
        })},
+      {"needle-with-arterial-blood", with([&](SceneState& s) {
+         s.X_AT.translation() = vein_A;
+         s.plunger = 0.6;
+         s.blood = 0.4;
+         s.blood_of = Tissue::artery_lumen;
+       })},
+      {"needle-with-air", with([&](SceneState& s) {
+         s.X_AT.translation() = vein_A;
+         s.plunger = 0.6;
+         s.blood_of = Tissue::lung;
+       })},
       {"probe", with([](SceneState& s) { s.tool = Tool::probe; })},
       {"forces-paper", with(pushed)},
       {"forces-safe", with(pushed), anatomy::Side::right, safe},
