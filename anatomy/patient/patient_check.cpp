@@ -19,9 +19,9 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 
 class Checker {
  public:
-  explicit Checker(const Patient& patient)
+  Checker(const Patient& patient, const SurfaceQuery& query)
       : patient_(patient),
-        query_(patient),
+        query_(query),
         entry_(patient.landmark(landmark::kEntry)),
         target_(patient.landmark(landmark::kVeinTarget)),
         skin_(surface(Organ::skin)),
@@ -213,7 +213,7 @@ class Checker {
   }
 
   const Patient& patient_;
-  SurfaceQuery query_;
+  const SurfaceQuery& query_;
   Vec3 entry_, target_;
   int skin_, vein_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< by surface
@@ -243,8 +243,8 @@ void requireForNeedle(const Patient& patient, const std::string& where) {
                 "Add what is missing, or take another patient (palpa patient build)");
 }
 
-std::string whyNotScored(const Patient& patient) {
-  for (const PatientFinding& finding : Checker(patient).line()) {
+std::string whyNotScored(const Patient& patient, const SurfaceQuery& query) {
+  for (const PatientFinding& finding : Checker(patient, query).line()) {
     if (finding.ok) continue;
     char value[32];
     std::snprintf(value, sizeof value, "%.1f", finding.value);
@@ -255,6 +255,9 @@ std::string whyNotScored(const Patient& patient) {
   return "";
 }
 
-std::vector<PatientFinding> checkPatient(const Patient& patient) { return Checker(patient).run(); }
+std::vector<PatientFinding> checkPatient(const Patient& patient) {
+  const SurfaceQuery query(patient);
+  return Checker(patient, query).run();
+}
 
 }  // namespace palpa::anatomy

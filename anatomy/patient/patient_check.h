@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "anatomy/patient.h"
+#include "anatomy/query/surface_query.h"
 
 namespace palpa::anatomy {
 
@@ -26,7 +27,7 @@ std::vector<PatientFinding> checkPatient(const Patient& patient);
 /// vein's target is not the one that is taught (the findings about it in checkPatient), or its
 /// clavicle rises or falls toward the shoulder as with a raised or hanging arm (by more than 40
 /// degrees [chosen]), so that what is taught by the clavicle would lead elsewhere. Empty: it can.
-std::string whyNotScored(const Patient& patient);
+std::string whyNotScored(const Patient& patient, const SurfaceQuery& query);
 
 /// Landmarks and organs that the needle task cannot do without and the patient lacks, by name;
 /// empty for a fit patient.

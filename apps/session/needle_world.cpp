@@ -111,7 +111,7 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
       landmarks(task.block ? std::nullopt : std::make_optional<anatomy::LandmarkFrame>(patient)) {
   for (const station::RealThing& thing : station.things) real_things.push_back(meshOf(thing));
   if (!options.record_only && !task.expert_path.empty()) {
-    not_scored = anatomy::whyNotScored(patient);
+    not_scored = anatomy::whyNotScored(patient, query);
     if (not_scored.empty()) {
       expert_path = calibration::readExpertPath(task.expert_path);
       taught_path = expert_path->onBody(assess::teachingLineOf(patient, query));

@@ -127,7 +127,7 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   shown_.step = setup_.settings.goal ? goal_.step() : assess::clinicalName(shown_.phase);
   status().elapsed_s = sample.t_s;
   aspirate(sample, dt, now_ns);
-  hearButtons(record, now_ns);
+  if (status().active()) hearButtons(record, now_ns);
   if (!status().active()) return;
   const assess::ScoringRules& rules = setup_.settings.rules;
   const bool reached = setup_.settings.goal

@@ -137,7 +137,7 @@ TEST(WhoIsScored, ByTheTaughtLineOfEachBody) {
       {"arm raised by 30 degrees", withArmRaised(reference, 30), "needle axis to clavicle"},
       {"arm raised by 60 degrees", withArmRaised(reference, 60), "this patient's taught line"}};
   for (const Row& row : rows) {
-    const std::string why = whyNotScored(row.patient);
+    const std::string why = whyNotScored(row.patient, SurfaceQuery(row.patient));
     std::printf("| %s | %s |\n", row.what, why.empty() ? "scored" : ("not scored: " + why).c_str());
     if (*row.refused == 0)
       EXPECT_EQ(why, "") << row.what;

@@ -51,7 +51,7 @@ TEST(Planted, DeviationsCostTheMoreTheLargerTheyAreOnEveryBody) {
         population, seed % 2 ? anatomy::Side::left : anatomy::Side::right, seed);
     p.extent = anatomy::Extent::bust;
     const anatomy::Patient patient = anatomy::buildPatient(p);
-    if (!anatomy::whyNotScored(patient).empty()) continue;
+    if (!anatomy::whyNotScored(patient, anatomy::SurfaceQuery(patient)).empty()) continue;
     ++admitted;
     const Scored body{patient};
     for (const double sign : {1.0, -1.0}) {
