@@ -86,9 +86,10 @@ TEST(Patients, AreScoredAlikeWhateverTheirBuild) {
       admitted, bodies, successes, kSeeds * admitted, usual.total(), alike, alike_without_time,
       skill.mean_a, skill.mean_b, skill.p_two_sided);
   EXPECT_GE(10 * admitted, 9 * bodies);
-  EXPECT_GE(100 * successes, 95 * kSeeds * admitted);
   EXPECT_LT(skill.mean_a, skill.mean_b);
-  if (!test::fullCounts()) return;  // of a few bodies one is a quarter
+  EXPECT_GE(successes, test::counted(kSeeds * admitted - 1, 0));
+  if (!test::fullCounts()) return;  // of a few bodies one is half of them
+  EXPECT_GE(100 * successes, 95 * kSeeds * admitted);
   EXPECT_GE(10 * alike, 9 * admitted);
   EXPECT_GE(10 * alike_without_time, 9 * admitted);
   EXPECT_LT(skill.p_two_sided, 0.01);
