@@ -42,8 +42,7 @@ class Checker {
     checkLine();
     checkFirstMet();
     checkArm();
-    const double inside = -1e3 * query_.closest(vein_, target_).distance;
-    report("target inside the vein", inside, "mm", inside > 0, "above 0");
+    checkTarget();
     return std::move(findings_);
   }
 
@@ -112,6 +111,11 @@ class Checker {
     report("free depth under the entry along the normal", free, "mm", free > 10, "above 10");
   }
 
+  void checkTarget() {
+    const double inside = -1e3 * query_.closest(vein_, target_).distance;
+    report("target inside the vein", inside, "mm", inside > 0, "above 0");
+  }
+
   void checkVein() {
     const auto window = patient_.landmarks.find(landmark::kWindow),
                over = patient_.landmarks.find(landmark::kWindowSkin);
@@ -129,8 +133,7 @@ class Checker {
     const double diameter = lumenDiameter();
     report("vein diameter", 1e3 * diameter, "mm", diameter >= 0.0037 && diameter <= 0.015,
            "3.7 to 15");
-    report("target inside the vein", -1e3 * query_.closest(vein_, target_).distance, "mm",
-           query_.closest(vein_, target_).distance < 0, "above 0");
+    checkTarget();
     const double pleura = query_.closest(surface(Organ::lung), target_).distance - diameter / 2;
     report("vein to pleura", 1e3 * pleura, "mm", pleura >= 0.001 && pleura <= 0.012, "1 to 12");
   }

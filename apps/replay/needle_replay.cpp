@@ -22,7 +22,7 @@ void MomentReader::add(const haptics::FlightRecord& record) {
   assess::TrialSample sample;
   if (!sampler_.add(record, &sample)) return;
   phases_.add(sample);
-  const Tissue flows = assess::aspiratedFrom(sample, {});
+  const Tissue flows = assess::aspiratedFrom(sample, rules_);
   syringe_.add(sample, flows, last_s_);
   last_s_ = sample.t_s;
   if (!moments_.empty() && sample.t_s - moments_.back().t_s < kMomentStep - 1e-9) return;

@@ -39,6 +39,7 @@ class MomentReader {
   Pose X_ET_;
   assess::TrialSampler sampler_;
   assess::PhaseDetector phases_;
+  const assess::ScoringRules rules_;  ///< the usual ones: from where on a plunger counts as drawn
   assess::Syringe syringe_;
   double last_s_ = 0;
   std::vector<NeedleMoment> moments_;

@@ -82,6 +82,8 @@ Seen look(const std::filesystem::path& file, const SearchWorld& world,
     ++seen.damped;
     seen.largest_N = std::max(seen.largest_N, off);
     seen.in_air += floor.isZero() && cue.isZero();
+    // Half of what nobody feels: the observer may act only below all of it, and this account adds
+    // up in another order.
     seen.unexplained += energy >= -config.passivity.unfelt_J / 2;
   });
   return seen;

@@ -77,8 +77,7 @@ constexpr MetricDefinition kMetrics[] = {
      "scoring samples (20 Hz) with the tip in the lung or pressing on the pleura", kNoPath},
     {"col_rib", "Rib or bone struck", "1", lower, "needle",
      "contacts with rib, sternum, or clavicle above the guiding force, each counted again for "
-     "every "
-     "full second; scored as published, scoring samples of 20 Hz",
+     "every full second; scored as published, scoring samples of 20 Hz",
      kNoPath},
     {"col_artery", "Artery touched", "1", lower, "needle",
      "scoring samples with the tip in an artery or pressing on its wall", kNoPath},
