@@ -32,8 +32,7 @@ haptics::TickConfig floorConfig(const task_search::SearchSettings& task,
   config.X_ET = pack(station.X_ET);
   config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
   config.floor = task_search::renderingOn(task, station);
-  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N,
-                                           station.coupling.stiffness, config.floor.unit);
+  config.augmentations = station::onDevice(task.augmentations, station, config.floor.unit);
   return config;
 }
 

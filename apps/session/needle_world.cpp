@@ -133,8 +133,7 @@ haptics::TickConfig NeedleWorld::tickConfig() const {
   config.safety = station.safety;
   config.passivity = station.passivity;
   config.X_ET = pack(station.X_ET);
-  config.augmentations =
-      station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
+  config.augmentations = station::onDevice(task.augmentations, station);
   return config;
 }
 

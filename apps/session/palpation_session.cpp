@@ -85,8 +85,7 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
   config.X_ET = pack(station.X_ET);
   config.touch = station::touchOf(task.library);
   config.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
-  config.augmentations =
-      station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
+  config.augmentations = station::onDevice(task.augmentations, station);
   for (std::size_t i = 0; i < task.library.kinds.size(); ++i)
     config.lump_radius[i] = task.library.kinds[i].diameter / 2;
   config.period_ns = std::llround(1e9 / options.rate_Hz);

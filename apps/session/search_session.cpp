@@ -95,8 +95,7 @@ haptics::TickConfig SearchWorld::tickConfig(const SessionOptions& options) const
   config.X_ET = pack(station.X_ET);
   config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
   config.floor = rendering;
-  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N,
-                                           station.coupling.stiffness, rendering.unit);
+  config.augmentations = station::onDevice(task.augmentations, station, rendering.unit);
   config.period_ns = std::llround(1e9 / options.rate_Hz);
   if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
   config.device_turns = 1;
@@ -184,7 +183,8 @@ namespace {
 /// How strong attractions are at most, on this device and with this unit; grooves and pits are
 /// valleys of the same radius.
 std::vector<report::Fact> pullFacts(const SearchWorld& world) {
-  const double radius = world.task.spec.bottom_radius, steepest = world.station.coupling.stiffness;
+  const double radius = world.task.spec.bottom_radius,
+               steepest = world.station.device.capabilities.stable_stiffness;
   std::vector<report::Fact> facts;
   const station::NamedPlan& named = world.task.augmentations;
   for (std::size_t i = 0; i < named.plan.count; ++i) {
@@ -195,7 +195,7 @@ std::vector<report::Fact> pullFacts(const SearchWorld& world) {
     facts.push_back(
         {"Pull into valleys, at most",
          format("%.1f N", peak(haptics::attractionHeld(a.amplitude, reach, radius, steepest))),
-         format("of %.1f N that the task asks for: no steeper than the floor's %.0f N/m, with "
+         format("of %.1f N that the task asks for: no steeper than the device's %.0f N/m, with "
                 "1 U = %.3g mm",
                 peak(a.amplitude), steepest, 1e3 * world.rendering.unit)});
   }

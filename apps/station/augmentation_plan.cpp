@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "apps/station/station_file.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::station {
@@ -81,8 +82,11 @@ Condition conditionIn(const JsonFile& file, double hysteresis, std::uint32_t sta
     c.compare = Condition::Compare::equal, c.threshold = countedIn(file, c.signal);
   else
     file.refuse("cue", "needs \"at_least\", \"below\" or \"is\" beside it");
-  if (file.has("hold_ms"))
-    c.hold_ms = static_cast<std::uint16_t>(file.integer("hold_ms", 0, 10'000));
+  const auto milliseconds = [&](const char* key) {
+    return file.has(key) ? file.integer(key, 0, 10'000) : 0;
+  };
+  c.hold_ms = static_cast<std::uint16_t>(milliseconds("hold_ms"));
+  c.after_ms = static_cast<std::uint32_t>(milliseconds("after_ms"));
   if (c.signal == Signal::learned) needState(file, c, states);
   return c;
 }
@@ -223,11 +227,10 @@ NamedPlan readPlan(const JsonFile& task) {
   return named;
 }
 
-haptics::AugmentationPlan onDevice(const NamedPlan& named, double max_force_N, double stiffness,
-                                   double unit) {
+haptics::AugmentationPlan onDevice(const NamedPlan& named, const Station& station, double unit) {
   haptics::AugmentationPlan plan = named.plan;
-  plan.largest = named.limit_share * max_force_N;
-  plan.steepest = stiffness;
+  plan.largest = named.limit_share * station.safety.max_force_N;
+  plan.steepest = station.device.capabilities.stable_stiffness;
   for (std::size_t i = 0; i < named.reach_U.size(); ++i) {
     if (named.reach_U[i] <= 0) continue;
     if (unit <= 0)

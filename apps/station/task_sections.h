@@ -10,6 +10,8 @@
 
 namespace palpa::station {
 
+struct Station;
+
 /// Where a task stands among visual and haptic augmented realities, in words (Jeon, Choi & Harders
 /// 2015, their section 2): its file's "taxonomy".
 struct Taxonomy {
@@ -76,10 +78,9 @@ struct NamedPlan {
 /// Empty where the file names no "subtasks". Throws UsageError naming the field.
 NamedPlan readPlan(const JsonFile& task);
 
-/// The plan for a device: never more than its share of `max_force_N`, nothing steeper than
-/// `stiffness` (N/m); lengths in units of a floor become metres by `unit`. Throws UsageError where
-/// there are some and `unit` is 0.
-haptics::AugmentationPlan onDevice(const NamedPlan& named, double max_force_N, double stiffness,
-                                   double unit = 0);
+/// The plan on a station: never more than its share of the force limit, nothing steeper than the
+/// largest wall that the device holds; lengths in units of a floor become metres by `unit`. Throws
+/// UsageError where there are some and `unit` is 0.
+haptics::AugmentationPlan onDevice(const NamedPlan& named, const Station& station, double unit = 0);
 
 }  // namespace palpa::station

@@ -23,6 +23,9 @@ constexpr double kLetGo_s = 1.4;      // after the episode begins on the screen 
 constexpr double kDescent = 0.010;    // m/s
 constexpr double kPressGain = 0.004;  // m/s more for every newton too little
 constexpr double kOnFloor = 1e-6;     // m
+constexpr double kHeld_N = 1.5;       // across the floor, for a moment: a valley holds the probe
+constexpr double kLift = 0.020;       // m/s, to come loose
+constexpr double kLift_s = 0.15;      // s
 constexpr double kStay_s = 0.9;       // in a middle, before looking round
 constexpr double kStroke_U = 18;      // amplitude: within the texture
 constexpr double kSpiral_U = 12, kSpiralPitch_U = 4;
@@ -62,8 +65,8 @@ class SearchingHand final : public Hand {
       next_ns_ = senses.now_ns + static_cast<std::int64_t>(kDecision_s * 1e9);
       think(senses);
     }
-    press(dt);
-    move(dt);
+    press(senses.now_ns, dt);
+    if (senses.now_ns >= loose_ns_) move(dt);
     way_.follow(floor_.unit * goal_U_, dt);
     Action action;
     action.X_DH =
@@ -100,6 +103,7 @@ class SearchingHand final : public Hand {
     v_F_ = bearings_.X_DA().rotation().transpose() * v_D;
     f_F_ = bearings_.X_DA().rotation().transpose() * senses.f_fingers_D;
     pressed_N_ += (-f_F_.z() - pressed_N_) * std::min(1.0, dt / 0.03);
+    across_N_ += (f_F_.head<2>().norm() - across_N_) * std::min(1.0, dt / 0.1);
   }
 
   /// How far the hand goes before the handle, so that the grip gives all that the handle and the
@@ -117,14 +121,21 @@ class SearchingHand final : public Hand {
     travelled_ = 0;
   }
 
-  /// On the floor the hand keeps its pressure, whatever lies under it.
-  void press(double dt) {
+  /// On the floor the hand keeps its pressure, whatever lies under it; where it is held it lets go.
+  void press(std::int64_t now_ns, double dt) {
     if (step_ == SearchStep::rest || step_ == SearchStep::wait) return;
-    const double rate =
-        step_ == SearchStep::descend
-            ? -kDescent
-            : kPressGain * (pressed_N_ - (light() ? skill_.stroke_press : skill_.press));
+    double rate = kPressGain * (pressed_N_ - (light() ? skill_.stroke_press : skill_.press));
+    if (step_ == SearchStep::descend) rate = -kDescent;
+    if (now_ns < loose_ns_) rate = kLift;
     goal_U_.z() += rate * dt / floor_.unit;
+  }
+
+  /// On the way to somewhere else, and pulled back: a moment off the floor.
+  void comeLoose(std::int64_t now_ns) {
+    const bool on_the_way = light() || step_ == SearchStep::reach || step_ == SearchStep::round;
+    if (!on_the_way || across_N_ < kHeld_N) return;
+    across_N_ = 0;
+    loose_ns_ = now_ns + static_cast<std::int64_t>(1e9 * kLift_s);
   }
 
   bool light() const { return step_ == SearchStep::go || step_ == SearchStep::stroke; }
@@ -196,6 +207,7 @@ class SearchingHand final : public Hand {
   void think(const Senses& senses) {
     const double now_s = 1e-9 * static_cast<double>(senses.now_ns), been_s = now_s - since_s_;
     if (!senses.seen) return;
+    comeLoose(senses.now_ns);
     if (!senses.seen->running) {
       step_ = SearchStep::rest;
       return;
@@ -280,8 +292,8 @@ class SearchingHand final : public Hand {
   std::optional<Vec3> last_;
   Vec3 v_F_ = Vec3::Zero(), p_U_ = Vec3::Zero(), goal_U_ = Vec3::Zero(), f_F_ = Vec3::Zero(),
        lead_ = Vec3::Zero();
-  double speed_ = 0, pressed_N_ = 0, since_s_ = 0, travelled_ = 0, orientation_ = 0;
-  std::int64_t next_ns_ = 0, last_glance_ns_ = -kOverview_ns;
+  double speed_ = 0, pressed_N_ = 0, across_N_ = 0, since_s_ = 0, travelled_ = 0, orientation_ = 0;
+  std::int64_t next_ns_ = 0, loose_ns_ = 0, last_glance_ns_ = -kOverview_ns;
   SearchStep step_ = SearchStep::rest;
   int trial_ = 0, element_ = 0, round_ = 0, times_ = 0;
   bool arrived_ = false;

@@ -50,8 +50,11 @@ std::uint32_t detect(const Subtasks& subtasks, const SignalValues& signals, std:
     for (std::uint32_t k = 0; k < std::min<std::uint32_t>(subtask.count, kMostConditions); ++k) {
       const Condition& c = subtask.conditions[k];
       const bool now = holds(c, signals[c.signal], before);
+      std::int64_t& unheld_ns = state->unheld_ns[i][k];
+      if (!now) unheld_ns = now_ns;
       held = held && now;
-      on = on && (now || (before && ago_ns < c.hold_ms * kMillisecond));
+      on = on && (before ? now || ago_ns < c.hold_ms * kMillisecond
+                         : now && now_ns - unheld_ns >= c.after_ms * kMillisecond);
     }
     if (held || on != before) state->since_ns[i] = now_ns;
     if (on == before) continue;

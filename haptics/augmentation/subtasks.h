@@ -53,13 +53,14 @@ inline constexpr int kMostSubtasks = 8, kMostConditions = 4;
 ///   below      on: c < t      off: c >= t + h |t|
 ///   equal      |c - t| < 1/2, for what is counted
 /// Of a part that is on, it is taken to hold for `hold_ms` more: a hand that trembles about a
-/// threshold, or a probe that bounces, does not switch the part off and on.
+/// threshold, or a probe that bounces, does not switch the part off and on. Of a part that is off,
+/// it begins to hold once it has held for `after_ms`: a hand that turns round is slow, too.
 struct Condition {
   enum class Compare : std::uint8_t { at_least, below, equal };
   Signal signal = Signal::none;
   Compare compare = Compare::at_least;
   std::uint16_t hold_ms = 0;
-  std::uint8_t reserved[4]{};
+  std::uint32_t after_ms = 0;
   double threshold = 0;      ///< t, SI (U/s for floor_speed)
   double hysteresis = 0.05;  ///< h
 };
@@ -80,6 +81,8 @@ struct Subtasks {
 struct SubtaskState {
   std::array<std::int64_t, kMostSubtasks>
       since_ns{};  ///< of a part that is on: when its conditions last held; else when it went off
+  /// When each condition last did not hold.
+  std::array<std::array<std::int64_t, kMostConditions>, kMostSubtasks> unheld_ns{};
   std::uint32_t on = 0;  ///< bit i: part i
   std::uint32_t reserved = 0;
 };

@@ -66,6 +66,30 @@ TEST(Subtasks, AHoldKeepsAPartFromFlickering) {
   EXPECT_EQ(state.on, 0u) << "and off when it is over";
 }
 
+/// A hand that strokes at up to 800 U/s, and turns round 10 times a second.
+TEST(Subtasks, WhatMustHoldForAWhileDoesNotBeginWhereTheHandTurns) {
+  const auto beginnings = [](std::uint32_t after_ms) {
+    const Subtasks s =
+        one({Signal::floor_speed, Condition::Compare::below, 0, after_ms, 468.75, 0.05});
+    SubtaskState state;
+    int times = 0;
+    for (std::int64_t i = 1; i <= 10'000; ++i)
+      times += detect(s, speed(800 * std::abs(std::cos(2 * M_PI * 5e-3 * static_cast<double>(i)))),
+                      1'000'000 * i, &state) != 0;
+    return times;
+  };
+  EXPECT_EQ(beginnings(0), 100);
+  EXPECT_EQ(beginnings(100), 0);
+  const Subtasks s = one({Signal::floor_speed, Condition::Compare::below, 0, 100, 468.75, 0.05});
+  SubtaskState state;
+  detect(s, speed(500), 1'000'000'000, &state);
+  detect(s, speed(400), 1'099'000'000, &state);
+  EXPECT_EQ(state.on, 0u);
+  EXPECT_EQ(detect(s, speed(400), 1'100'000'000, &state), 1u);
+  detect(s, speed(500), 1'101'000'000, &state);
+  EXPECT_EQ(state.on, 0u) << "off at once";
+}
+
 TEST(Subtasks, BelowIsTheMirrorImage) {
   const Subtasks s = one({Signal::floor_speed, Condition::Compare::below, 0, {}, 100, 0.05});
   SubtaskState state;

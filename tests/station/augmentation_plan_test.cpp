@@ -9,6 +9,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/geometry/local_geometry.h"
+#include "apps/station/station_file.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::station {
@@ -76,7 +77,7 @@ TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
   const std::vector<Stated> stated{
       {"scan", {{Signal::floor_speed, kAtLeast, 100, {}, 468.75, 0.05}}},
       {"shape",
-       {{Signal::floor_speed, Condition::Compare::below, 100, {}, 468.75, 0.05},
+       {{Signal::floor_speed, Condition::Compare::below, 0, 100, 468.75, 0.05},
         {Signal::floor_contact, kAtLeast, 100, {}, 1, 0.05}}},
       {"identify",
        {{Signal::floor_contact, kAtLeast, 100, {}, 1, 0.05},
@@ -93,6 +94,7 @@ TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
       EXPECT_EQ(read.threshold, want.threshold) << i << k;
       EXPECT_EQ(read.hysteresis, want.hysteresis) << i << k;
       EXPECT_EQ(read.hold_ms, want.hold_ms) << i << k;
+      EXPECT_EQ(read.after_ms, want.after_ms) << i << k;
     }
   }
   const Augmentation &edge = plan.each[0], &valley = plan.each[1], &bump = plan.each[2];
@@ -312,15 +314,20 @@ TEST(AugmentationPlan, OnADeviceItHasItsLimitsAndLengths) {
   const NamedPlan named = planIn(planWith(json::array({addedOf("attraction", {{"reach_U", 5}}),
                                                        addedOf("attraction", {{"reach_mm", 3}}),
                                                        addedOf("relief", {{"force_N", 30}})})));
-  const haptics::AugmentationPlan plan = onDevice(named, 15, 5250, 60e-6);
+  Station station;
+  station.safety.max_force_N = 15;
+  station.device.capabilities.stable_stiffness = 50'000;
+  station.coupling.stiffness = 5250;
+  const haptics::AugmentationPlan plan = onDevice(named, station, 60e-6);
   EXPECT_DOUBLE_EQ(plan.largest, 7.5);
-  EXPECT_EQ(plan.steepest, 5250);
+  EXPECT_EQ(plan.steepest, 50'000) << "as steep as the device holds, whatever the floor is";
   EXPECT_DOUBLE_EQ(plan.each[0].reach, 300e-6);
   EXPECT_DOUBLE_EQ(plan.each[1].reach, 0.003);
   EXPECT_EQ(plan.each[2].amplitude, 30) << "what one alone is told; all together are bounded";
-  EXPECT_DOUBLE_EQ(onDevice(named, 15, 5250, 250e-6).each[0].reach, 1.25e-3);
-  EXPECT_DOUBLE_EQ(onDevice(named, 8, 1000, 60e-6).largest, 4);
-  EXPECT_THROW(onDevice(named, 8, 1000), UsageError) << "units of no floor";
+  EXPECT_DOUBLE_EQ(onDevice(named, station, 250e-6).each[0].reach, 1.25e-3);
+  station.safety.max_force_N = 8;
+  EXPECT_DOUBLE_EQ(onDevice(named, station, 60e-6).largest, 4);
+  EXPECT_THROW(onDevice(named, station), UsageError) << "units of no floor";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 #include <ostream>
 
+#include "apps/station/station_file.h"
 #include "apps/twin/device_twin.h"
 #include "haptics/loop/tick.h"
 #include "tests/task_search/shipped_search.h"
@@ -47,8 +48,10 @@ class WeakLoop {
     config_.floor.real.damping *= held;
     config_.floor.degraded = {task.degraded_share * config_.floor.real.stiffness,
                               held * task.rendering.degraded.damping};
-    config_.augmentations =
-        station::onDevice(task.augmentations, device.max_force_N, device.stable, device.unit);
+    station::Station station;
+    station.safety = config_.safety;
+    station.device.capabilities.stable_stiffness = device.stable;
+    config_.augmentations = station::onDevice(task.augmentations, station, device.unit);
     commands_.armed = commands_.augmented = commands_.degraded = 1;
   }
 

@@ -53,8 +53,7 @@ struct SearchLoop {
     config.passivity = station.passivity;
     config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
     config.floor = renderingOn(theTask(), station);
-    config.augmentations = station::onDevice(theTask().augmentations, station.safety.max_force_N,
-                                             station.coupling.stiffness, config.floor.unit);
+    config.augmentations = station::onDevice(theTask().augmentations, station, config.floor.unit);
     commands.armed = 1;
     commands.augmented = 1;
   }
