@@ -42,6 +42,9 @@ void addStationCalibrations(CLI::App& calibrate);
 /// subtasks: a task's parts proposed from recorded sessions.
 void addSubtaskCalibration(CLI::App& calibrate);
 
+/// experts: the expert path from recorded trials.
+void addExpertCalibration(CLI::App& calibrate);
+
 /// `palpa study analyse`: tables, figures and a page of a study from its records.
 void addStudyAnalyse(CLI::App& study);
 

@@ -152,8 +152,13 @@ twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill,
   }
   v.aim_A = patient.landmark(anatomy::landmark::kSternalEndPosteriorSuperior) +
             landmarks->vectorToA(skill.aim_offset_L);
-  if (knows_patient) v.aim_A = twin::aimByPictures(patient, query, v.entry_A, v.aim_A);
-  v.vein_distance = knows_patient ? (v.aim_A - v.entry_A).norm() : skill.vein_distance;
+  v.vein_distance = skill.vein_distance;
+  if (knows_patient) {
+    const twin::SeenVein vein = twin::aimByPictures(patient, query, v.entry_A, v.aim_A);
+    v.aim_A = vein.aim_A;
+    v.vein_distance = (v.aim_A - v.entry_A).norm();
+    v.most_lean = std::atan(0.5 * vein.radius / v.vein_distance);
+  }
   v.medial_A = landmarks->vectorToA(Vec3::UnitX());
   v.posterior_A = landmarks->vectorToA(Vec3::UnitY());
   v.cephalad_A = landmarks->vectorToA(Vec3::UnitZ());

@@ -125,7 +125,7 @@ void Operator::moveTo(const Pose& X_AT, double now_s, double speed) {
 Vec3 Operator::firstAim() {
   const Vec3 aim = (anatomy_.aim_A - entry_seen_A_).normalized();
   const Vec3 to_bone = (anatomy_.cephalad_A - anatomy_.posterior_A).normalized();
-  return (aim + (feels_ ? std::tan(skill_.guide) : 0) * to_bone +
+  return (aim + (feels_ ? std::tan(std::min(skill_.guide, anatomy_.most_lean)) : 0) * to_bone +
           skill_.direction_sd * (judgement_.normal() * anatomy_.posterior_A +
                                  judgement_.normal() * anatomy_.cephalad_A))
       .normalized();

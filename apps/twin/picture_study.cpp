@@ -24,7 +24,7 @@ class Pictures {
       : patient_(patient), query_(query), entry_A_(entry_A) {}
 
   /// The middle of the vein at the place of its wall that is nearest.
-  bool middleNear(const Vec3& p_A, Vec3* middle_A) const {
+  bool middleNear(const Vec3& p_A, SeenVein* seen) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const int vein : surfacesOf(patient_, Organ::vein)) {
       const anatomy::SurfacePoint wall = query_.closest(vein, p_A);
@@ -33,7 +33,7 @@ class Pictures {
         continue;
       nearest = std::abs(wall.distance);
       const Vec3 axis = (tube.b_A - tube.a_A).normalized();
-      *middle_A = tube.a_A + (wall.p_A - tube.a_A).dot(axis) * axis;
+      *seen = {tube.a_A + (wall.p_A - tube.a_A).dot(axis) * axis, tube.radius};
     }
     return std::isfinite(nearest);
   }
@@ -59,22 +59,23 @@ class Pictures {
 
 }  // namespace
 
-Vec3 aimByPictures(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query,
-                   const Vec3& entry_A, const Vec3& guess_A) {
+SeenVein aimByPictures(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query,
+                       const Vec3& entry_A, const Vec3& guess_A) {
   const Pictures pictures(patient, query, entry_A);
-  Vec3 middle_A, ahead_A;
-  if (!pictures.middleNear(guess_A, &middle_A)) return guess_A;
+  SeenVein nearest, ahead;
+  if (!pictures.middleNear(guess_A, &nearest)) return {guess_A, 0};
   Vec3 along = Vec3::Zero();
-  if (pictures.middleNear(guess_A + kReach * (middle_A - entry_A).normalized(), &ahead_A) &&
-      (ahead_A - middle_A).norm() > kStride)
-    along = (ahead_A - middle_A).normalized();
+  if (pictures.middleNear(guess_A + kReach * (nearest.aim_A - entry_A).normalized(), &ahead) &&
+      (ahead.aim_A - nearest.aim_A).norm() > kStride)
+    along = (ahead.aim_A - nearest.aim_A).normalized();
   for (double away = 0; away <= kAlong; away += kStride)
     for (const double sign : {1.0, -1.0}) {
-      Vec3 there_A;
-      if (pictures.middleNear(middle_A + sign * away * along, &there_A) && pictures.isWay(there_A))
-        return there_A;
+      SeenVein there;
+      if (pictures.middleNear(nearest.aim_A + sign * away * along, &there) &&
+          pictures.isWay(there.aim_A))
+        return there;
     }
-  return middle_A;
+  return nearest;
 }
 
 }  // namespace palpa::twin

@@ -9,7 +9,11 @@ namespace palpa::twin {
 /// `entry_A` comes that stays 2 mm off the clavicle, 3 mm off the pleura before the vein, and meets
 /// the vein first [chosen]. Where no such way is seen: the middle of the vein nearest to the guess.
 /// Without a vein: the guess.
-Vec3 aimByPictures(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query,
-                   const Vec3& entry_A, const Vec3& guess_A);
+struct SeenVein {
+  Vec3 aim_A;
+  double radius;  ///< m, of the vein there; 0 where none is seen
+};
+SeenVein aimByPictures(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query,
+                       const Vec3& entry_A, const Vec3& guess_A);
 
 }  // namespace palpa::twin
