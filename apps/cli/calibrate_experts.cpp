@@ -58,8 +58,8 @@ void simulateOn(const ExpertOptions& o, int body, const std::filesystem::path& f
     return;
   }
   for (int expert = 0; expert < o.experts; ++expert) {
-    session.seed = o.seed + 1000 * static_cast<std::uint64_t>(expert) +
-                   static_cast<std::uint64_t>(body);
+    session.seed =
+        o.seed + 1000 * static_cast<std::uint64_t>(expert) + static_cast<std::uint64_t>(body);
     session.trainee = "simulated-expert-" + std::to_string(expert + 1);
     const std::filesystem::path place = session::makeOutputFolder(
         (folder / (session.trainee + "-on-" + std::to_string(session.patient_seed))).string(), "");
@@ -75,8 +75,7 @@ void simulateOn(const ExpertOptions& o, int body, const std::filesystem::path& f
 std::vector<std::string> simulateExperts(const ExpertOptions& o) {
   const std::filesystem::path folder = session::makeOutputFolder(o.sessions, "calibrate-experts");
   std::vector<std::string> files;
-  for (int body = 0; body < std::max(o.patients, 1); ++body)
-    simulateOn(o, body, folder, &files);
+  for (int body = 0; body < std::max(o.patients, 1); ++body) simulateOn(o, body, folder, &files);
   return files;
 }
 

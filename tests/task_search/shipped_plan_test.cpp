@@ -89,14 +89,33 @@ struct MeasuredSpeed {
   }
 };
 
-/// As stated: scan from 468.75 U/s on, to 5 % less; shape in contact below that, to 5 % more;
-/// identify in contact with a texture from 400 U/s on, to 5 % less.
-unsigned statedParts(unsigned was, double speed, bool contact, bool texture) {
-  const bool scan = speed >= (was & kScanOn ? 0.95 : 1) * kScan_U;
-  const bool shape = contact && speed < (was & kShapeOn ? 1.05 : 1) * kScan_U;
-  const bool identify = contact && texture && speed >= (was & kIdentifyOn ? 0.95 : 1) * kIdentify_U;
-  return (scan ? kScanOn : 0) | (shape ? kShapeOn : 0) | (identify ? kIdentifyOn : 0);
-}
+/// As stated: scan from 468.75 U/s on, to 5 % less; identify in contact with a texture from 400 U/s
+/// on, to 5 % less; both kept for 100 ms. Shape in contact, kept for 100 ms, and where it has been
+/// slower than 468.75 U/s for 100 ms, to 5 % more.
+class Stated {
+ public:
+  unsigned next(int i, double speed, bool contact, bool texture) {
+    const auto kept = [&](unsigned bit, bool holds, int* held_at) {
+      if (holds) *held_at = i;
+      return holds || (on_ & bit && i - *held_at < 100);
+    };
+    const bool shape_was = on_ & kShapeOn, slow = speed < (shape_was ? 1.05 : 1) * kScan_U;
+    if (!slow) fast_at_ = i;
+    if (contact && slow) shape_at_ = i;
+    const bool scan = kept(kScanOn, speed >= (on_ & kScanOn ? 0.95 : 1) * kScan_U, &scan_at_);
+    const bool identify = kept(
+        kIdentifyOn, contact && texture && speed >= (on_ & kIdentifyOn ? 0.95 : 1) * kIdentify_U,
+        &identify_at_);
+    const bool shape =
+        slow && (shape_was ? contact || i - shape_at_ < 100 : contact && i - fast_at_ >= 100);
+    on_ = (scan ? kScanOn : 0) | (shape ? kShapeOn : 0) | (identify ? kIdentifyOn : 0);
+    return on_;
+  }
+
+ private:
+  unsigned on_ = 0;
+  int scan_at_ = 0, identify_at_ = 0, shape_at_ = 0, fast_at_ = -1;
+};
 
 /// Wanders over the floor at 100 to 800 U/s, now pressed, now lifted.
 struct Wanderer {
@@ -129,21 +148,16 @@ TEST(ShippedPlan, PartsAreOnExactlyAsStated) {
   SearchLoop loop;
   MeasuredSpeed measured;
   Wanderer wanderer;
-  unsigned stated = 0;
-  std::array<int, 3> begun{}, held_at{};
+  Stated stated;
+  unsigned was = 0;
+  std::array<int, 3> begun{};
   for (int i = 0; i < 120'000; ++i) {
     const Vec3 p = wanderer.next(i);
-    const unsigned was = stated;
-    const unsigned held = statedParts(was, measured.next(p), p.z() < 0, onTexture(p));
-    stated = 0;
-    for (unsigned part = 0; part < 3; ++part) {  // kept for 100 ms after it last held
-      const unsigned bit = 1u << part;
-      if (held & bit) held_at[part] = i;
-      if (held & bit || (was & bit && i - held_at[part] < 100)) stated |= bit;
-    }
+    const unsigned on = stated.next(i, measured.next(p), p.z() < 0, onTexture(p));
     const FlightRecord at = loop.step(p);
-    ASSERT_EQ(at.subtasks, stated) << i << ": " << measured.v.norm();
-    for (unsigned part = 0; part < 3; ++part) begun[part] += (stated & ~was) >> part & 1u;
+    ASSERT_EQ(at.subtasks, on) << i << ": " << measured.v.norm();
+    for (unsigned part = 0; part < 3; ++part) begun[part] += (on & ~was) >> part & 1u;
+    was = on;
   }
   for (const int count : begun) EXPECT_GT(count, 40);
 }
@@ -261,9 +275,9 @@ TEST(ShippedPlan, NotAugmentedItAddsExactlyNothing) {
 }
 
 /// Ticks from the first reading at which the true speed is there (or no longer) until the part is
-/// on; 100: not at all.
+/// on; 200: not at all.
 int ticksUntil(unsigned part, SearchLoop& loop, const Vec3& from, const Vec3& v_U, bool begins) {
-  constexpr int kLong = 100;
+  constexpr int kLong = 200;
   const Vec3 still = Vec3::Zero();
   Vec3 p = from;
   for (int i = 0; i < 40; ++i) {
@@ -295,9 +309,11 @@ TEST(ShippedPlan, APartIsOnWithinTenMilliseconds) {
       latest[1] = std::max(latest[1], until(kIdentifyOn, texture, kMargin * kIdentify_U, true));
       latest[2] = std::max(latest[2], until(kShapeOn, start, kMargin * kScan_U, false));  // it ends
       SearchLoop landing(quantum);
-      for (int i = 0; i < 20; ++i) landing.step({start.x(), start.y(), kLifted_U});
+      for (int i = 0; i < 120; ++i) landing.step({start.x(), start.y(), kLifted_U});
       latest[3] = std::max(latest[3], ticksUntil(kShapeOn, landing, start, Vec3::Zero(), true));
     }
+    EXPECT_GT(latest[2], 100) << "a hand that is slow for a moment only turns round";
+    latest[2] -= 100;
     for (const int ms : latest) EXPECT_LE(ms, 10) << quantum;
     EXPECT_GE(latest[0], 8) << "the low-pass is there";
   }
@@ -323,8 +339,7 @@ TEST(ShippedPlan, ASteadySpeedDoesNotChatter) {
   for (const double quantum : {2e-6, 5e-6}) {
     EXPECT_EQ(switchesIn(kScanOn, quantum, Vec3::Zero(), 60, 1.15 * kScan_U), 1) << quantum;
     EXPECT_EQ(switchesIn(kScanOn, quantum, Vec3::Zero(), 60, 0.85 * kScan_U), 0) << quantum;
-    EXPECT_EQ(switchesIn(kShapeOn, quantum, Vec3::Zero(), 60, 1.15 * kScan_U), 2)
-        << quantum;  // at rest it was on
+    EXPECT_EQ(switchesIn(kShapeOn, quantum, Vec3::Zero(), 60, 1.15 * kScan_U), 0) << quantum;
     EXPECT_EQ(switchesIn(kShapeOn, quantum, Vec3::Zero(), 60, 0.85 * kScan_U), 1) << quantum;
     for (int e = 0; e < 3; ++e) {
       EXPECT_EQ(switchesIn(kIdentifyOn, quantum, middleOf(e), 15, 1.15 * kIdentify_U), 1)
