@@ -114,12 +114,16 @@ double PalpatingHand::fromNormal(const Vec3& p_P) const {
                                                       : kFelt;
 }
 
-bool PalpatingHand::known(const Vec3& p_P) const {
-  if (fromNormal(p_P) < kBelongs) return true;
+/// What belongs there, or the flank of a lump that was marked.
+bool PalpatingHand::accountedFor(const Vec3& p_P) const {
   const auto near = [&](const Vec3& other) { return across(other, p_P) < kKnown; };
+  return fromNormal(p_P) < kBelongs || std::any_of(marked_P_.begin(), marked_P_.end(), near);
+}
+
+/// Or a place that was dismissed: no reason to look again. A hill that is felt beside it is one.
+bool PalpatingHand::known(const Vec3& p_P) const {
   const auto same = [&](const Vec3& other) { return across(other, p_P) < kSame; };
-  return std::any_of(marked_P_.begin(), marked_P_.end(), near) ||
-         std::any_of(dismissed_P_.begin(), dismissed_P_.end(), same);
+  return accountedFor(p_P) || std::any_of(dismissed_P_.begin(), dismissed_P_.end(), same);
 }
 
 void PalpatingHand::judge(double now_s) {
@@ -196,7 +200,7 @@ void PalpatingHand::decide(double now_s) {
     const bool begins = closer_.size() == 1;
     look_ = Look::climb;
     const Vec3 top = begins ? *suspect_P_ : inArea(memory_.hillTop(closer_, *suspect_P_));
-    if (known(top)) return dismiss(now_s);  // the flank of one that was marked
+    if (accountedFor(top)) return dismiss(now_s);
     if ((begins || across(top, *suspect_P_) > kOnTop) && rounds_left_-- > 0) {
       suspect_P_ = top;
       planCross(top);
@@ -211,7 +215,7 @@ void PalpatingHand::decide(double now_s) {
   all.insert(all.end(), fresh_.begin(), fresh_.end());
   const Vec3 middle = inArea(memory_.hillTop(all, *suspect_P_));
   const double firmest = memory_.meanFirmness(look_ == Look::confirm ? fresh_ : closer_);
-  if (firmest < skill_.marks_from || known(middle)) return dismiss(now_s);
+  if (firmest < skill_.marks_from || accountedFor(middle)) return dismiss(now_s);
   suspect_P_.reset();
   marked_P_.push_back(middle);
   word_ = grade(middle, firmest);

@@ -132,6 +132,7 @@ class PalpatingHand final : public Hand {
   void decide(double now_s);
   void dismiss(double now_s);
   void pressAfresh(const Vec3& p_P, int times, Look look);
+  bool accountedFor(const Vec3& p_P) const;
   bool known(const Vec3& p_P) const;
   double fromNormal(const Vec3& p_P) const;
   Word grade(const Vec3& p_P, double firmest);
