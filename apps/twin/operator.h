@@ -54,8 +54,8 @@ struct VisibleAnatomy {
   Vec3 normal_A;         ///< of the skin there
   Vec3 aim_A;            ///< where the needle is pointed: by the landmarks
   double vein_distance;  ///< m, entry to vein along the needle, as far as he knows
-  double most_lean = 1;  ///< rad, off the aim: half of what the vein's seen thickness leaves
   Vec3 medial_A, posterior_A, cephalad_A;  ///< unit directions by the landmarks
+  double most_lean = 1;  ///< rad, toward the bone: the middle half of the vein as it was seen
 };
 
 /// E above the entry, the needle pointing down and a little ahead: where a trainee picks it up, on
