@@ -35,7 +35,8 @@ Vec3 keepPassive(const PassivityLimits& limits, PassivityState& state,
   Vec3 added = Vec3::Zero();
   const double expected = state.energy_J - f_port.dot(dx) + slip;
   const double debt = -expected - limits.unfelt_J, moved2 = dx.squaredNorm();
-  if (debt > 0 && moved2 > 0 && limits.max_damping > 0 && dt > 0) {
+  const bool touching = f_port.squaredNorm() > 0;
+  if (touching && debt > 0 && moved2 > 0 && limits.max_damping > 0 && dt > 0) {
     const double damping = std::min(debt * dt / moved2, limits.max_damping);
     added = -damping * dx / dt;
     state.injecting = 1;

@@ -14,6 +14,8 @@ namespace palpa::haptics {
 ///   controller   E' < -e:  f -= a v,  a = min((-E' - e) / (T |v|^2), a_max)     e: nobody feels it
 ///   bounds       E <= |f| reach: more than a spring with this force can hold was dissipated, and
 ///                is no credit for later; a debt is forgotten slowly
+/// Where `f` is zero nothing is damped: a hand in free air is not braked for what a contact owes,
+/// which is paid in the next one.
 /// `f` is the force on the hand at the port that must not make energy. A cue that heeds no motion
 /// is a source, bounded by its plan: it may give its work away, and no more than that. Its force is
 /// left out of `f` and so of the account, which is owed nothing by it and owes it nothing.

@@ -132,8 +132,10 @@ double figureOf(const assess::TrialAssessment& a, const std::string& name) {
 /// limit of one the trial ends when the second begins.
 TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
   const std::filesystem::path folder = freshPlace("passes");
+  constexpr std::uint64_t kSeed = 610;  // finds the vein at last
   const auto run = [&](bool assess, int most) {
-    const SessionOptions options = quick(assess, 601);
+    SessionOptions options = quick(assess, kSeed);
+    options.who = OperatorKind::novice;
     NeedleWorld world(options);
     world.station.camera_rate_Hz = 1;
     if (most > 0) world.task.most_passes.assessed = most;
