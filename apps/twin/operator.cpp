@@ -121,11 +121,12 @@ void Operator::moveTo(const Pose& X_AT, double now_s, double speed) {
 }
 
 /// By the landmarks, as well as one can judge; experts lean toward the clavicle and let it guide
-/// them, but not where the skin could not be felt: a bone that is not felt guides nobody.
+/// them, where the skin could be felt.
 Vec3 Operator::firstAim() {
   const Vec3 aim = (anatomy_.aim_A - entry_seen_A_).normalized();
   const Vec3 to_bone = (anatomy_.cephalad_A - anatomy_.posterior_A).normalized();
-  return (aim + (feels_ ? std::tan(std::min(skill_.guide, anatomy_.most_lean)) : 0) * to_bone +
+  const double lean = std::min(feels_ ? skill_.guide : skill_.guide_unfelt, anatomy_.most_lean);
+  return (aim + std::tan(lean) * to_bone +
           skill_.direction_sd * (judgement_.normal() * anatomy_.posterior_A +
                                  judgement_.normal() * anatomy_.cephalad_A))
       .normalized();

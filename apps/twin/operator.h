@@ -37,8 +37,9 @@ struct OperatorSkill {
   double bevel_sd = 0.17;          ///< rad, turning the bevel up, per trial
   double redirect = 0.06;          ///< rad, turning away after bone or a dry pass
   double redirect_sd = 0.01;       ///< rad
-  double guide = 0;      ///< rad, first aimed this much toward the clavicle, to find it by touch
-  int redirections = 8;  ///< then gives up
+  double guide = 0;         ///< rad, first aimed this much toward the clavicle, to find it by touch
+  double guide_unfelt = 0;  ///< rad, the same where the skin was not felt
+  int redirections = 8;     ///< then gives up
   double first_depth = 0.010;    ///< m, taught depth of phase 1
   double vein_distance = 0.042;  ///< m, entry to vein along the needle in the mean anatomy
   double search_margin = 0.008;  ///< m beyond it before the pass counts as dry

@@ -36,6 +36,7 @@ OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
   s.redirect = kDegree * file.number("redirect_deg", 0.1, 45);
   s.redirect_sd = kDegree * file.number("redirect_sd_deg", 0, 45);
   s.guide = kDegree * file.number("guide_deg", 0, 45);
+  s.guide_unfelt = kDegree * file.number("guide_unfelt_deg", 0, 45);
   s.redirections = file.integer("redirections", 0, 50);
   s.first_depth = kMm * file.number("first_depth_mm", 0.5, 70);
   s.vein_distance = kMm * file.number("vein_distance_mm", 1, 150);

@@ -24,7 +24,11 @@ constexpr double kKnown = 0.014;   // m: nobody looks twice at the same lump or 
 constexpr double kAround = 0.016;  // m: as far as a lump is felt
 constexpr double kBelongs =
     0.017;  // m from the middle of what belongs there: farther off a lump would be felt as one
-constexpr double kSame = 0.008;  // m, of a place that was dismissed
+// Sum of squares of firmness: less is explained where a single press was firm by chance
+constexpr double kNoHill = 0.035, kClearHill = 0.06;
+constexpr std::size_t kLooksBack = 2;  // hills, at the end
+constexpr double kClearly = 0.12;      // ln of firmness: two standard deviations of a press
+constexpr double kSame = 0.008;        // m, of a place that was dismissed
 constexpr double kMarkFor_s = 0.3;
 constexpr double kHome = 0.04;  // m above the top
 
@@ -71,6 +75,7 @@ void PalpatingHand::beginTrial(int trial, double now_s) {
   suspect_P_.reset();
   marked_P_.clear();
   dismissed_P_.clear();
+  looked_back_P_.clear();
   done_ = false;
   planStrips();
   next(now_s);
@@ -91,16 +96,24 @@ void PalpatingHand::pressing(double now_s) {
     air_N_ = felt_N_;
   else if (tip_now_P_.z() > kNear)
     air_N_ += kSharp * (felt_N_ - air_N_);
-  const double resistance = felt_N_ - air_N_;
+  const double resistance = felt_N_ - air_N_, z = tip_now_P_.z();
+  // Where between two thoughts a force was passed: a press is felt as one, not in steps.
+  const auto passed = [&](double force_N) {
+    const double share = (force_N - resistance_N_) / std::max(resistance - resistance_N_, 1e-9);
+    return z_ + std::clamp(share, 0.0, 1.0) * (z - z_);
+  };
   if (!touched_ && resistance > kTouch_N) {
     touched_ = true;
-    touched_z_ = tip_now_P_.z();
+    touched_z_ = passed(kTouch_N);
   }
   while (touched_ && depths_.size() < skill_.pressures.size() &&
          resistance >= skill_.pressures[depths_.size()]) {
-    if (depths_.empty()) light_z_ = tip_now_P_.z();
-    depths_.push_back((depths_.empty() ? touched_z_ : light_z_) - tip_now_P_.z());
+    const double there = passed(skill_.pressures[depths_.size()]);
+    if (depths_.empty()) light_z_ = there;
+    depths_.push_back((depths_.empty() ? touched_z_ : light_z_) - there);
   }
+  resistance_N_ = resistance;
+  z_ = z;
   const double enough = skill_.pressures.back() * (suspect_P_ ? skill_.closer_force : 1);
   if (resistance < enough && tip_now_P_.z() > -kDeepest) return;
   since_s_ = now_s;
@@ -144,7 +157,8 @@ void PalpatingHand::judge(double now_s) {
 /// on the flank would mark the flank.
 Vec3 PalpatingHand::thoughtOver(Vec3 p_P) const {
   constexpr int kTimes = 3;  // of a centimetre at most
-  for (int i = 0; i < kTimes && skill_.feels_around; ++i) p_P = inArea(memory_.hillTop({}, p_P));
+  for (int i = 0; i < kTimes && skill_.feels_around; ++i)
+    p_P = inArea(memory_.hillAbout({}, p_P).top);
   return p_P;
 }
 
@@ -159,14 +173,44 @@ bool PalpatingHand::lookCloser() {
     waiting_.front().looked = true;
     if (felt.looked || across(top, felt.p_P) < kSame) waiting_.erase(waiting_.begin());
     if (memory_.firmness(felt) <= skill_.looks_closer || known(felt.p_P) || known(top)) continue;
-    suspect_P_ = top;
-    rounds_left_ = skill_.rounds;
-    closer_.assign(1, felt);
-    look_ = Look::climb;
+    if (skill_.feels_around && memory_.hillAbout({}, top).explained < kNoHill) continue;
+    beginLook(top, felt);
     if (skill_.again > 0) pressAfresh(top, skill_.again, Look::again);
     return true;
   }
   return false;
+}
+
+void PalpatingHand::beginLook(const Vec3& top_P, const FeltPress& felt) {
+  suspect_P_ = top_P;
+  rounds_left_ = skill_.rounds;
+  aside_ = false;
+  closer_.assign(1, felt);
+  look_ = Look::climb;
+}
+
+/// When all was felt: at the clearest hills that no mark accounts for, whatever was thought of them
+/// before the rest was known.
+bool PalpatingHand::lookBack() {
+  if (!skill_.feels_around || !places_.empty() || looked_back_P_.size() >= kLooksBack) return false;
+  const auto again = [&](const Vec3& p_P) {
+    return std::any_of(looked_back_P_.begin(), looked_back_P_.end(),
+                       [&](const Vec3& other) { return across(other, p_P) < kKnown; });
+  };
+  const FeltPress* at = nullptr;
+  TouchMemory::Hill clearest{Vec3::Zero(), kClearHill};
+  for (const FeltPress& press : memory_.presses()) {
+    if (memory_.firmness(press) <= skill_.looks_closer || accountedFor(press.p_P)) continue;
+    TouchMemory::Hill hill = memory_.hillAbout({}, press.p_P);
+    hill.top = inArea(hill.top);
+    if (hill.explained <= clearest.explained || accountedFor(hill.top) || again(hill.top)) continue;
+    clearest = hill;
+    at = &press;
+  }
+  if (!at) return false;
+  looked_back_P_.push_back(clearest.top);
+  beginLook(clearest.top, *at);
+  return true;
 }
 
 void PalpatingHand::planCross(const Vec3& p_P) {
@@ -192,14 +236,14 @@ void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
 
 /// The presses of a look are done: was it chance, where is it firmest, is it a lump?
 void PalpatingHand::decide(double now_s) {
-  constexpr double kNotChance = 0.7;  // of what made one look
-  constexpr double kOnTop = 2.4e-3;   // m
+  constexpr double kNotChance = 1;   // of what made one look
+  constexpr double kOnTop = 2.4e-3;  // m
   if (look_ == Look::again && memory_.meanFirmness(fresh_) < kNotChance * skill_.looks_closer)
     return dismiss(now_s);
   if (look_ != Look::confirm) {
     const bool begins = closer_.size() == 1;
     look_ = Look::climb;
-    const Vec3 top = begins ? *suspect_P_ : inArea(memory_.hillTop(closer_, *suspect_P_));
+    const Vec3 top = begins ? *suspect_P_ : inArea(memory_.hillAbout(closer_, *suspect_P_).top);
     if (accountedFor(top)) return dismiss(now_s);
     if ((begins || across(top, *suspect_P_) > kOnTop) && rounds_left_-- > 0) {
       suspect_P_ = top;
@@ -213,13 +257,28 @@ void PalpatingHand::decide(double now_s) {
   }
   std::vector<FeltPress> all = closer_;
   all.insert(all.end(), fresh_.begin(), fresh_.end());
-  const Vec3 middle = inArea(memory_.hillTop(all, *suspect_P_));
+  const Vec3 middle = inArea(memory_.hillAbout(all, *suspect_P_).top);
   const double firmest = memory_.meanFirmness(look_ == Look::confirm ? fresh_ : closer_);
   if (firmest < skill_.marks_from || accountedFor(middle)) return dismiss(now_s);
+  if (goesAside(middle, firmest)) return next(now_s);
   suspect_P_.reset();
   marked_P_.push_back(middle);
   word_ = grade(middle, firmest);
   goTo(Vec3(middle.x(), middle.y(), 0), now_s, PalpationStep::mark);
+}
+
+/// Where it is clearly firmer close by this was a flank: on to there, once in a closer look.
+bool PalpatingHand::goesAside(const Vec3& from_P, double firmest) {
+  const FeltPress* beside = memory_.firmestAbout(from_P, kAround);
+  if (aside_ || !beside || across(beside->p_P, from_P) < kSame || known(beside->p_P) ||
+      memory_.firmness(*beside) < firmest + kClearly)
+    return false;
+  aside_ = true;
+  suspect_P_ = inArea(memory_.hillAbout({}, beside->p_P).top);
+  closer_.assign(1, *beside);
+  look_ = Look::climb;
+  planCross(*suspect_P_);
+  return true;
 }
 
 void PalpatingHand::dismiss(double now_s) {
@@ -241,7 +300,7 @@ Hand::Word PalpatingHand::grade(const Vec3& p_P, double firmest) {
 }
 
 void PalpatingHand::next(double now_s) {
-  if ((suspect_P_ || lookCloser()) && closer_places_.empty()) return decide(now_s);
+  if ((suspect_P_ || lookCloser() || lookBack()) && closer_places_.empty()) return decide(now_s);
   if (std::vector<Vec3>& places = suspect_P_ ? closer_places_ : places_; !places.empty()) {
     const Vec3 place = places.back();
     places.pop_back();
@@ -276,6 +335,8 @@ void PalpatingHand::think(const Senses& senses) {
       since_s_ = now_s;
       touched_ = false;
       air_N_ = felt_N_;
+      resistance_N_ = 0;
+      z_ = tip_now_P_.z();
       depths_.clear();
       return;
     case PalpationStep::press:

@@ -41,14 +41,22 @@ class TouchMemory {
   void add(const FeltPress& press) { presses_.push_back(press); }
   const std::vector<FeltPress>& presses() const { return presses_; }
 
-  /// Against the nearest places that seemed ordinary and lie about as far from what belongs there,
-  /// mean over the pressures; 0 while there are too few of them.
+  /// Against the nearest places that seemed ordinary and lie about as far from what belongs there;
+  /// of the pressures the deeper ones, at which more gives way, count more. 0 while there are too
+  /// few such places.
   double firmness(const FeltPress& press) const;
   double meanFirmness(const std::vector<FeltPress>& presses) const;
-  /// Where the top of a firm hill lies that was felt about `centre`: the place, to a millimetre,
-  /// from which a round hill as wide as a fingertip feels a lump explains best what `presses` and
-  /// the search itself told there. `centre` where there is no hill.
-  Vec3 hillTop(const std::vector<FeltPress>& presses, const Vec3& centre) const;
+  /// Of a firm hill that was felt about a place.
+  struct Hill {
+    Vec3 top;
+    double explained;  ///< sum of squares of firmness; 0: there is none
+  };
+  /// Its top is the place, to a millimetre, from which a round hill as wide as a fingertip feels a
+  /// lump explains best what `presses` and the search itself told there. `centre` where there is no
+  /// hill.
+  Hill hillAbout(const std::vector<FeltPress>& presses, const Vec3& centre) const;
+  /// The firmest press of all within `reach` of `centre`; none where nothing was pressed there.
+  const FeltPress* firmestAbout(const Vec3& centre, double reach) const;
   /// Root mean square distance of what is firm about `centre`, over everything remembered and
   /// `more`.
   double spreadAbout(const Vec3& centre, const std::vector<FeltPress>& more) const;
@@ -126,10 +134,13 @@ class PalpatingHand final : public Hand {
   void judge(double now_s);
   void next(double now_s);
   bool lookCloser();
+  void beginLook(const Vec3& top_P, const FeltPress& felt);
+  bool lookBack();
   Vec3 thoughtOver(Vec3 p_P) const;
   void planCross(const Vec3& p_P);
   Vec3 inArea(const Vec3& p_P) const;
   void decide(double now_s);
+  bool goesAside(const Vec3& from_P, double firmest);
   void dismiss(double now_s);
   void pressAfresh(const Vec3& p_P, int times, Look look);
   bool accountedFor(const Vec3& p_P) const;
@@ -154,6 +165,7 @@ class PalpatingHand final : public Hand {
   MinJerk move_;
   double since_s_ = 0;
   double felt_N_ = 0, air_N_ = 0, touched_z_ = 0, light_z_ = 0;
+  double resistance_N_ = 0, z_ = 0;  ///< at the last thought
   bool touched_ = false;
   std::vector<double> depths_;  ///< of this press so far
   /// Still to be pressed, the next one last: in the search, in the closer look that is on
@@ -163,8 +175,9 @@ class PalpatingHand final : public Hand {
   std::vector<FeltPress> waiting_;  ///< of the search, still to be thought about
   std::optional<Vec3> suspect_P_;   ///< a closer look is on
   int rounds_left_ = 0;
+  bool aside_ = false;  ///< went on from a flank in this look
   Look look_ = Look::climb;
-  std::vector<Vec3> marked_P_, dismissed_P_;
+  std::vector<Vec3> marked_P_, dismissed_P_, looked_back_P_;
   Word word_;
   bool done_ = false;
 };

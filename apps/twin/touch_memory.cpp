@@ -31,15 +31,15 @@ std::vector<double> TouchMemory::ordinaryAbout(const FeltPress& press, std::size
 }
 
 double TouchMemory::firmness(const FeltPress& press) const {
-  double sum = 0;
-  int count = 0;
+  double sum = 0, weights = 0;
   for (std::size_t l = first_reported_; l < press.depths.size(); ++l) {
     const std::vector<double> around = ordinaryAbout(press, l);
     if (around.size() < kFewest) continue;
-    sum += std::log(upperMedian(around) / std::max(press.depths[l], 1e-4));
-    ++count;
+    const double ordinary = upperMedian(around);
+    sum += ordinary * std::log(ordinary / std::max(press.depths[l], 1e-4));
+    weights += ordinary;
   }
-  return count > 0 ? sum / count : 0;
+  return weights > 0 ? sum / weights : 0;
 }
 
 double TouchMemory::meanFirmness(const std::vector<FeltPress>& presses) const {
@@ -49,29 +49,37 @@ double TouchMemory::meanFirmness(const std::vector<FeltPress>& presses) const {
   return sum;
 }
 
-Vec3 TouchMemory::hillTop(const std::vector<FeltPress>& presses, const Vec3& centre) const {
+TouchMemory::Hill TouchMemory::hillAbout(const std::vector<FeltPress>& presses,
+                                         const Vec3& centre) const {
   constexpr double kWide = 8.5e-3, kFelt = 0.016, kStep = 1e-3;  // m
   constexpr int kFarthest = 10;                                  // steps
   std::vector<std::pair<Vec3, double>> felt;
   for (const std::vector<FeltPress>* some : {&presses_, &presses})
     for (const FeltPress& press : *some)
       if (across(press.p_P, centre) < kFelt) felt.emplace_back(press.p_P, firmness(press));
-  Vec3 top = centre;
-  double most = 0;  // of what the hill explains
+  Hill hill{centre, 0};
   for (int i = -kFarthest; i <= kFarthest; ++i) {
     for (int j = -kFarthest; j <= kFarthest; ++j) {
       const Vec3 at = centre + kStep * Vec3(i, j, 0);
       double along = 0, square = 0;
       for (const auto& [p, firm] : felt) {
-        const double hill = std::exp(-std::pow(across(p, at) / kWide, 2) / 2);
-        along += hill * firm;
-        square += hill * hill;
+        const double height = std::exp(-std::pow(across(p, at) / kWide, 2) / 2);
+        along += height * firm;
+        square += height * height;
       }
       const double explained = along > 0 ? along * along / square : 0;
-      if (explained > most) most = explained, top = at;
+      if (explained > hill.explained) hill = {at, explained};
     }
   }
-  return top;
+  return hill;
+}
+
+const FeltPress* TouchMemory::firmestAbout(const Vec3& centre, double reach) const {
+  const FeltPress* firmest = nullptr;
+  for (const FeltPress& press : presses_)
+    if (across(press.p_P, centre) < reach && (!firmest || firmness(press) > firmness(*firmest)))
+      firmest = &press;
+  return firmest;
 }
 
 double TouchMemory::spreadAbout(const Vec3& centre, const std::vector<FeltPress>& more) const {
