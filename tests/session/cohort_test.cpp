@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "anatomy/base/quantile.h"
@@ -69,12 +71,14 @@ void printRules(const char* who, const Cohort& c) {
 /// draws (in three of four with eight).
 int seeds() { return palpa::test::counted(12, 20); }
 
-Cohort cohort(OperatorKind who, bool force_feedback, int seeds) {
+/// `custom`: of a custom operator, its file.
+Cohort cohort(OperatorKind who, bool force_feedback, int seeds, const std::string& custom = "") {
   Cohort result;
   const std::filesystem::path folder =
       std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/cohort";
   SessionOptions options;
   options.who = who;
+  options.operator_file = custom;
   options.force_feedback = force_feedback;
   options.fast = options.no_views = options.quiet = true;
   options.display = scene::Display::offscreen;
@@ -168,6 +172,23 @@ TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
   EXPECT_LT(skill.mean_a, skill.mean_b);
   EXPECT_LT(skill.p_two_sided, seeds() == 20 ? 0.01 : 0.05);  // fewer seeds have less power
   EXPECT_GT(touch.mean_b, touch.mean_a);
+}
+
+/// The expert as it was before its lean was bounded by the vein's width and by what is felt.
+TEST(Cohort, WhoLeansOnABoneThatIsNotFeltRunsIntoIt) {
+  const std::filesystem::path shipped(PALPA_SOURCE_DIR "/assets/operators/expert.json"),
+      file = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/leaning.json";
+  nlohmann::json leaning = nlohmann::json::parse(std::ifstream(shipped));
+  leaning["guide_deg"]["value"] = leaning["guide_unfelt_deg"]["value"] = 7;
+  std::ofstream(file) << leaning;
+  const int few = palpa::test::counted(2, 20);
+  const Cohort numb = cohort(OperatorKind::custom, false, few, file.string());
+  printRules("leaning by 7 degrees, without force feedback", numb);
+  EXPECT_GT(mean(numb.published_rib), 0);
+  if (few < 20) return;
+  const Cohort felt = cohort(OperatorKind::custom, true, few, file.string());
+  printRules("leaning by 7 degrees", felt);
+  EXPECT_GT(mean(numb.published_rib), mean(felt.published_rib));
 }
 
 }  // namespace
