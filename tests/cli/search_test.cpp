@@ -68,6 +68,8 @@ TEST(Search, ADegradedFloorLosesTheTargetAndCuesGiveItBack) {
                augmented = foundShare(rows, "augmented");
   EXPECT_GT(real, degraded);
   EXPECT_GT(augmented, degraded);
+  const std::string page = contentOf(here / "A/report.html");
+  EXPECT_TRUE(says(page, "4.8 N") && says(page, "50000 N/m"));
   if (!test::fullCounts()) return;
   const std::optional<assess::Recovery> recovery = assess::recoveryOf(episodesOf(rows), 1);
   ASSERT_TRUE(recovery);

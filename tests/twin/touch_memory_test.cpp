@@ -43,11 +43,38 @@ TEST(TouchMemory, WhereItWasTouchedTellsNothing) {
 
 TEST(TouchMemory, FindsTheTopOfTheHill) {
   const TouchMemory memory = searched();
-  EXPECT_LE(memory.hillTop(crossAbout(0.005, -0.004), {0.005, -0.004, 0}).norm(), 0.0015);
-  EXPECT_LE(memory.hillTop({}, {0.008, 0, 0}).norm(), 0.0025)
+  EXPECT_LE(memory.hillAbout(crossAbout(0.005, -0.004), {0.005, -0.004, 0}).top.norm(), 0.0015);
+  EXPECT_LE(memory.hillAbout({}, {0.008, 0, 0}).top.norm(), 0.0025)
       << "what the search felt counts: presses 8 mm apart";
   const Vec3 plain(0.024, 0.024, 0);
-  EXPECT_LT((TouchMemory(3).hillTop({}, plain) - plain).norm(), 1e-12);
+  const TouchMemory::Hill none = TouchMemory(3).hillAbout({}, plain);
+  EXPECT_LT((none.top - plain).norm(), 1e-12);
+  EXPECT_EQ(none.explained, 0);
+}
+
+TEST(TouchMemory, AHillExplainsMoreThanASinglePressThatIsFirmByChance) {
+  const TouchMemory memory = searched();
+  const Vec3 apart(-0.024, 0.024, 0);
+  FeltPress chance = pressAt(apart.x(), apart.y());
+  for (double& depth : chance.depths) depth *= 0.85;
+  EXPECT_GT(memory.hillAbout({}, Vec3::Zero()).explained,
+            3 * memory.hillAbout({chance}, apart).explained);
+}
+
+TEST(TouchMemory, TheFirmestCloseBy) {
+  const TouchMemory memory = searched();
+  const FeltPress* firmest = memory.firmestAbout({0.008, 0.008, 0}, 0.012);
+  ASSERT_TRUE(firmest);
+  EXPECT_LT(firmest->p_P.norm(), 1e-12);
+  EXPECT_EQ(memory.firmestAbout({0.1, 0.1, 0}, 0.012), nullptr);
+}
+
+/// By the deepest press 30 % less, by the others nothing: two thirds of that and more.
+TEST(TouchMemory, DeeperPressuresTellMore) {
+  const TouchMemory memory = searched();
+  FeltPress press = pressAt(0.024, 0.024);
+  press.depths[2] *= 0.7;
+  EXPECT_GT(memory.firmness(press), -0.67 * std::log(0.7));
 }
 
 TEST(TouchMemory, AWiderLumpSpreadsWider) {
