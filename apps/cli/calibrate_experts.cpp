@@ -52,7 +52,8 @@ void simulateOn(const ExpertOptions& o, int body, const std::filesystem::path& f
   session::SessionOptions session = optionsOf(o, body);
   session::NeedleWorld world(session);
   world.station.camera_rate_Hz = 2;  // pictures serve the ready check only: fewer save time
-  const std::string where = "patient " + std::to_string(session.patient_seed);
+  const std::string where = o.patients ? "patient " + std::to_string(session.patient_seed)
+                                       : std::string("the reference patient");
   if (!world.not_scored.empty()) {
     std::fprintf(stderr, "%s: left out. %s\n", where.c_str(), world.not_scored.c_str());
     return;
@@ -61,8 +62,9 @@ void simulateOn(const ExpertOptions& o, int body, const std::filesystem::path& f
     session.seed =
         o.seed + 1000 * static_cast<std::uint64_t>(expert) + static_cast<std::uint64_t>(body);
     session.trainee = "simulated-expert-" + std::to_string(expert + 1);
-    const std::filesystem::path place = session::makeOutputFolder(
-        (folder / (session.trainee + "-on-" + std::to_string(session.patient_seed))).string(), "");
+    const std::string name =
+        session.trainee + (o.patients ? "-on-" + std::to_string(session.patient_seed) : "");
+    const std::filesystem::path place = session::makeOutputFolder((folder / name).string(), "");
     std::fprintf(stderr, "%s on %s: %s\n", session.trainee.c_str(), where.c_str(),
                  counted(o.simulate, "trial").c_str());
     if (session::runNeedleSession(session, world, place).quit)
