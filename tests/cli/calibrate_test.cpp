@@ -339,9 +339,11 @@ TEST(Calibrate, ABentDeviceIsPutRight) {
         << outcome.out << outcome.err;
     return json::parse(contentOf(here / (of + "/accuracy.json")));
   };
-  const json with_map = accuracy("bent"), without = accuracy("no_grid");
-  EXPECT_LT(with_map["target_mm"].get<double>(), without["target_mm"].get<double>());
+  const json with_map = accuracy("bent");
   EXPECT_LT(with_map["target_mm"].get<double>(), 2.4 * with_map["predicted_mm"].get<double>());
+  if (!test::fullCounts()) return;  // half a minute each
+  const json without = accuracy("no_grid");
+  EXPECT_LT(with_map["target_mm"].get<double>(), without["target_mm"].get<double>());
 }
 
 TEST(Calibrate, AllIsTrueAndASessionUsesItAndIsNotScoredOnABadOne) {

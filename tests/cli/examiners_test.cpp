@@ -33,14 +33,14 @@ std::string verdictIn(const std::string& page) {
   return page.substr(from, page.find('<', from) - from);
 }
 
-/// The shipped breast; in a short check a third of its area, with one lump of two kinds at most.
+/// The shipped breast; in a short check a quarter of its area, with one lump of two kinds at most.
 std::string breast(const Folder& here) {
   const std::filesystem::path assets = std::filesystem::path(PALPA_SOURCE_DIR) / "assets";
   const std::filesystem::path shipped = assets / "tasks/palpation_breast.json";
   if (test::fullCounts()) return shipped.string();
   nlohmann::json task = nlohmann::json::parse(contentOf(shipped));
   task["lumps"] = (assets / "materials/lumps.json").string();
-  task["area"]["half_across_mm"] = task["area"]["half_away_mm"] = 18;
+  task["area"]["half_across_mm"] = task["area"]["half_away_mm"] = 15;
   task["cases"]["lumps"] = {0.25, 0.75};
   task["cases"]["kinds"] = {"large", "hard"};
   return here.file("small_breast.json", task.dump());

@@ -52,7 +52,7 @@ Tried tries(SessionOptions options, OperatorKind who, int seeds, NeedleWorld& wo
 
 TEST(Patients, AreScoredAlikeWhateverTheirBuild) {
   constexpr int kSeeds = 3;
-  const int bodies = test::counted(2, 200);
+  const int bodies = test::counted(1, 200);
   SessionOptions reference = onPatient(0);
   NeedleWorld there(reference);
   there.station.camera_rate_Hz = 1;
