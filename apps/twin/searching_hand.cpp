@@ -24,8 +24,8 @@ constexpr double kDescent = 0.010;    // m/s
 constexpr double kPressGain = 0.004;  // m/s more for every newton too little
 constexpr double kOnFloor = 1e-6;     // m
 constexpr double kHeld_N = 1.5;       // across the floor, for a moment: a valley holds the probe
-constexpr double kLift = 0.020;       // m/s, to come loose
-constexpr double kLift_s = 0.15;      // s
+constexpr double kComesOff = 0.020;   // m/s, to come loose
+constexpr double kComesOff_s = 0.15;  // s
 constexpr double kStay_s = 0.9;       // in a middle, before looking round
 constexpr double kStroke_U = 18;      // amplitude: within the texture
 constexpr double kSpiral_U = 12, kSpiralPitch_U = 4;
@@ -126,7 +126,7 @@ class SearchingHand final : public Hand {
     if (step_ == SearchStep::rest || step_ == SearchStep::wait) return;
     double rate = kPressGain * (pressed_N_ - (light() ? skill_.stroke_press : skill_.press));
     if (step_ == SearchStep::descend) rate = -kDescent;
-    if (now_ns < loose_ns_) rate = kLift;
+    if (now_ns < loose_ns_) rate = kComesOff;
     goal_U_.z() += rate * dt / floor_.unit;
   }
 
@@ -135,7 +135,7 @@ class SearchingHand final : public Hand {
     const bool on_the_way = light() || step_ == SearchStep::reach || step_ == SearchStep::round;
     if (!on_the_way || across_N_ < kHeld_N) return;
     across_N_ = 0;
-    loose_ns_ = now_ns + static_cast<std::int64_t>(1e9 * kLift_s);
+    loose_ns_ = now_ns + static_cast<std::int64_t>(1e9 * kComesOff_s);
   }
 
   bool light() const { return step_ == SearchStep::go || step_ == SearchStep::stroke; }
