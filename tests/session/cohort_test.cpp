@@ -136,7 +136,7 @@ TEST(Cohort, TheNeedleIsOutAgainWheneverATrialEnds) {
   options.display = scene::Display::offscreen;
   NeedleWorld world(options);
   world.station.camera_rate_Hz = 1;
-  for (double limit_s = 2; limit_s < 12; limit_s += 1) {
+  for (double limit_s = 2; limit_s < 12; limit_s += palpa::test::counted(2, 1)) {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     world.task.time_limit_s = limit_s;
