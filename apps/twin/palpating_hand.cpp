@@ -236,9 +236,8 @@ void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
 
 /// The presses of a look are done: was it chance, where is it firmest, is it a lump?
 void PalpatingHand::decide(double now_s) {
-  constexpr double kNotChance = 1;   // of what made one look
   constexpr double kOnTop = 2.4e-3;  // m
-  if (look_ == Look::again && memory_.meanFirmness(fresh_) < kNotChance * skill_.looks_closer)
+  if (look_ == Look::again && memory_.meanFirmness(fresh_) < skill_.looks_closer)
     return dismiss(now_s);
   if (look_ != Look::confirm) {
     const bool begins = closer_.size() == 1;

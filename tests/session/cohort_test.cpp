@@ -61,8 +61,7 @@ void printRules(const char* who, const Cohort& c) {
   };
   std::printf(
       "%s: median %.0f and mean %.0f as published, %.0f and %.0f by rules 2; COL_RIB is %.0f %% "
-      "and "
-      "%.0f %% of all points\n",
+      "and %.0f %% of all points\n",
       who, median(c.published), mean(c.published), median(c.totals), mean(c.totals),
       share(c.published_rib, c.published), share(c.rib, c.totals));
 }
