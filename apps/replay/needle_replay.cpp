@@ -26,8 +26,8 @@ void MomentReader::add(const haptics::FlightRecord& record) {
   syringe_.add(sample, flows, last_s_);
   last_s_ = sample.t_s;
   if (!moments_.empty() && sample.t_s - moments_.back().t_s < kMomentStep - 1e-9) return;
-  moments_.push_back(
-      {sample.t_s, toolIn(record, X_ET_), phases_.phase(), syringe_.blood(), syringe_.of(), flows});
+  moments_.push_back({sample.t_s, toolIn(record, X_ET_), phases_.phase(), syringe_.blood(),
+                      syringe_.of(), flows, record.commands.asked != 0});
 }
 
 task_needle::TaskStatus statusAt(const NeedleMoment& moment, int trial, bool force_feedback) {
@@ -43,6 +43,7 @@ task_needle::TaskStatus statusAt(const NeedleMoment& moment, int trial, bool for
   status.blood = moment.blood;
   status.holds = moment.holds;
   status.flows = moment.flows;
+  status.asked = moment.asked;
   return status;
 }
 

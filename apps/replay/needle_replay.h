@@ -25,6 +25,7 @@ struct NeedleMoment {
   assess::ProcedurePhase phase = assess::ProcedurePhase::approach;
   double blood = 0;                                 ///< filled fraction of the syringe
   Tissue holds = Tissue::air, flows = Tissue::air;  ///< as in TaskStatus
+  bool asked = false;                               ///< what is aspirated
 };
 
 /// Takes a session's ticks in their order and keeps of one trial a moment every 4 ms: more than any

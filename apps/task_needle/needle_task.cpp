@@ -65,7 +65,6 @@ runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   phases_ = {};
   passes_ = {};
   samples_.clear();
-  in_lumen_s_ = 0;
   syringe_ = {};
   question_ = {};
   touched_s_.fill(-kContactPause);
@@ -108,9 +107,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
   const std::string reached = setup_.settings.goal ? "Done: " + setup_.settings.goal->means
                                                    : "Blood flows freely: the vein is reached";
   return {scoresJson(completed_.back().assessment), completed_.back().assessment.summary,
-          !success               ? "Trial ended: " + training::nameOf(outcome)
-          : setup_.settings.goal ? "Done. Trial ended"
-                                 : "Vein reached. Trial ended",
+          setup_.settings.goal ? "Done. Trial ended" : "Vein reached. Trial ended",
           success ? reached : "The end of the trial"};
 }
 
@@ -129,11 +126,7 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   aspirate(sample, dt, now_ns);
   if (status().active()) hearButtons(record, now_ns);
   if (!status().active()) return;
-  const assess::ScoringRules& rules = setup_.settings.rules;
-  const bool reached = setup_.settings.goal
-                           ? goal_.reached()
-                           : rules.told_within_s == 0 && in_lumen_s_ >= rules.dwell_s;
-  if (reached) return endTrial(Outcome::success, "", now_ns);
+  if (setup_.settings.goal && goal_.reached()) return endTrial(Outcome::success, "", now_ns);
   if (const int most = plan().most_passes; most > 0 && passes_.passes() > most)
     return endTrial(Outcome::passes,
                     "Ended at needle pass " + std::to_string(most + 1) + ": no more than " +
@@ -148,12 +141,12 @@ void NeedleTask::aspirate(const assess::TrialSample& sample, double dt, std::int
   const assess::ScoringRules& rules = setup_.settings.rules;
   shown_.plunger = sample.plunger;
   shown_.flows = assess::aspiratedFrom(sample, rules);
-  in_lumen_s_ = shown_.flows == Tissue::vein_lumen ? in_lumen_s_ + dt : 0;
   syringe_.add(sample, shown_.flows, sample.t_s - dt);
   shown_.blood = syringe_.blood();
   shown_.holds = syringe_.of();
-  if (rules.told_within_s == 0 || setup_.settings.goal) return;
+  if (setup_.settings.goal) return;
   question_.add(shown_.flows, dt, rules);
+  if (question_.asked() && rules.told_within_s == 0) return answerItself(now_ns);
   if (question_.asked() && !shown_.asked)
     report(now_ns, EventKind::phase, "It is asked what is aspirated");
   shown_.asked = question_.asked();
@@ -162,6 +155,12 @@ void NeedleTask::aspirate(const assess::TrialSample& sample, double dt, std::int
         Outcome::mistaken,
         std::string("It was not said what was aspirated: ") + assess::looksOf(question_.about()),
         now_ns);
+}
+
+/// Where nobody asks, blood that flows from the vein for long enough says it.
+void NeedleTask::answerItself(std::int64_t now_ns) {
+  question_.answered();
+  if (question_.about() == Tissue::vein_lumen) endTrial(Outcome::success, "", now_ns);
 }
 
 /// A right word ends the trial in the vein; of artery or lung it only ends the question.

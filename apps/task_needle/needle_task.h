@@ -89,6 +89,7 @@ class NeedleTask final : public trial::TrialTask {
   void publishStatus(std::int64_t now_ns) override;
   void receive(const trial::UserRequest& request, std::int64_t now_ns) override;
   void aspirate(const assess::TrialSample& sample, double dt, std::int64_t now_ns);
+  void answerItself(std::int64_t now_ns);
   void take(assess::Taken taken, std::int64_t now_ns);
   void hearButtons(const haptics::FlightRecord& record, std::int64_t now_ns);
   void announce(const assess::TrialSample& sample, std::int64_t now_ns);
@@ -110,7 +111,6 @@ class NeedleTask final : public trial::TrialTask {
   assess::AspirationQuestion question_;
   std::uint32_t buttons_ = 0;                    ///< of the last tick
   std::size_t said_ = 0;                         ///< of the setup's, so many
-  double in_lumen_s_ = 0;                        ///< dwell with the plunger drawn
   std::array<double, kOrganCount> touched_s_{};  ///< trial time of the last contact, by Organ
   bool entered_vein_ = false;
 };

@@ -197,9 +197,7 @@ trial::TrialTask::Conclusion PalpationTask::conclude(Outcome outcome, const std:
   shown_.lead_P.reset();
   completed_.push_back(std::move(trial));
   const assess::PalpationAssessment& judged = completed_.back().assessment;
-  return {scoreJson(judged), judged.summary,
-          outcome == Outcome::done ? judged.summary : "Trial ended: " + training::nameOf(outcome),
-          "The end of the search"};
+  return {scoreJson(judged), judged.summary, judged.summary, "The end of the search"};
 }
 
 void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {

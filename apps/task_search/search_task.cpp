@@ -148,9 +148,7 @@ trial::TrialTask::Conclusion SearchTask::conclude(Outcome outcome, const std::st
   completed_.push_back({judged(facts, episode(), listener_), reason});
   const assess::SearchTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
-  return {scoreJson(trial), summary,
-          outcome == Outcome::done ? summary : "Episode ended: " + training::nameOf(outcome),
-          "Where the probe stayed"};
+  return {scoreJson(trial), summary, summary, "Where the probe stayed"};
 }
 
 /// Once it has been held for a while and is where an episode starts.

@@ -128,9 +128,7 @@ trial::TrialTask::Conclusion SqueezeTask::conclude(Outcome outcome, const std::s
   completed_.push_back({judged(facts, comparison(), listener_, said_), reason});
   const assess::SqueezeTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
-  return {scoreJson(trial), summary,
-          outcome == Outcome::done ? summary : "Trial ended: " + training::nameOf(outcome),
-          "After the answer"};
+  return {scoreJson(trial), summary, summary, "After the answer"};
 }
 
 void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {

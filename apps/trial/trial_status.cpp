@@ -5,6 +5,13 @@
 
 namespace palpa::trial {
 
+std::string endNotice(training::Role role, training::Outcome outcome, const std::string& result) {
+  using training::Outcome;
+  if (training::inAssessment(role)) return "Trial ended. The report gives the result";
+  if (outcome == Outcome::success || outcome == Outcome::done) return result;
+  return "Trial ended: " + training::nameOf(outcome);
+}
+
 std::string gradeText(double diameter, int hardness, int mobility) {
   std::string text;
   const auto add = [&text](const std::string& words) {

@@ -28,6 +28,10 @@ struct TrialStatus {
   bool active() const { return state == TrialState::running || state == TrialState::paused; }
 };
 
+/// What stands on the screen until the next trial: `result` where the trial came to its end, else
+/// how it ended; in an assessment neither.
+std::string endNotice(training::Role role, training::Outcome outcome, const std::string& result);
+
 /// The scene shall keep a picture of this moment.
 struct PictureRequest {
   int trial = 0;

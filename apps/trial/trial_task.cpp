@@ -129,7 +129,7 @@ void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_
                                                outcome == Outcome::voided ? "" : end.scores_json});
   picture("end", end.caption);
   status_.state = TrialState::ended;
-  status_.notice = end.notice;
+  status_.notice = endNotice(status_.role, outcome, end.result);
   since_ns_ = now_ns;
 }
 

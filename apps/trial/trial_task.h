@@ -39,9 +39,11 @@ class TrialTask : public runtime::Activity {
   virtual std::string notReady(const haptics::FlightRecord& last) const = 0;
   /// The trial `status().trial` begins.
   virtual runtime::TrialHeader begin(std::int64_t now_ns) = 0;
-  /// It ends; what is recorded of that: `scores_json` and, where there is no reason, what is said.
+  /// It ends; what is recorded of that: `scores_json` and, where there is no reason, the sentence.
   struct Conclusion {
-    std::string scores_json, sentence, notice, caption;
+    std::string scores_json, sentence;
+    std::string result;   ///< told at once where the trial came to its end, see `endNotice`
+    std::string caption;  ///< of the last picture
   };
   virtual Conclusion conclude(training::Outcome outcome, const std::string& reason) = 0;
   /// Every tick, trial or not.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace palpa::twin {
 namespace {
@@ -20,8 +19,6 @@ constexpr double kDrawn = 0.4;     // plunger held under suction while advancing
 constexpr double kDeepestPush = 0.020;  // m the hand goes below the skin in search of the puncture
 constexpr double kFirstGrip = 0.4;      // share of peak force below which resistance counts as lost
 
-Vec3 withoutAlong(const Vec3& v, const Vec3& unit) { return v - v.dot(unit) * unit; }
-
 }  // namespace
 
 Pose needlePickedUp(const station::Station& station, const Pose& X_WA, const Vec3& entry_A,
@@ -34,22 +31,21 @@ Pose needlePickedUp(const station::Station& station, const Pose& X_WA, const Vec
 Operator::Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, const Pose& X_ET,
                    std::uint64_t seed)
     : skill_(skill),
-      anatomy_(anatomy),
+      vein_distance_(anatomy.vein_distance),
+      plan_(skill, anatomy, seed),
       X_ET_(X_ET),
       X_TE_(X_ET.inverse()),
-      seed_(seed),
-      judgement_(seed, "operator.judgement.0"),
       noise_(seed, "operator.noise"),
       tremor_(skill.tremor_rms, RandomStream(seed, "operator.tremor")),
       turn_tremor_(skill.turn_tremor_rms, RandomStream(seed, "operator.turn_tremor")),
       reaction_(skill.reaction) {}
 
 Pose Operator::needleAt(const Vec3& tip_A, const Vec3& axis_A) const {
-  return makePose(rotationWithZ(axis_A, bevel_A_), tip_A);
+  return makePose(rotationWithZ(axis_A, plan_.bevel_A()), tip_A);
 }
 
 double Operator::seenInsertion() const {
-  return (bearings_.X_AT().translation() - entry_seen_A_).dot(axis_A_) + depth_error_;
+  return (bearings_.X_AT().translation() - entry_seen_A_).dot(axis_A_) + plan_.depthError();
 }
 
 /// Compares the needle on the screen with the own hand: where is the patient for my hand?
@@ -82,30 +78,13 @@ void Operator::begin(NeedleStep step, double now_s, double pause_s) {
   peak_N_ = 0;
 }
 
-/// Bevel up: toward the front of the patient who lies there, and a little to the head, which is up
-/// while the needle stands on the skin. About the way to the middle of the body it is turned by
-/// chance.
-Vec3 Operator::bevelOf(int trial) const {
-  RandomStream chance(seed_, "operator.bevel." + std::to_string(trial));
-  return Eigen::AngleAxisd(skill_.bevel_sd * chance.normal(), anatomy_.medial_A) *
-         (0.3 * anatomy_.cephalad_A - anatomy_.posterior_A);
-}
-
 void Operator::beginTrial(int trial, double now_s) {
   trial_ = trial;
   passes_ = nudges_ = 0;
   going_back_ = false;
-  judgement_ = RandomStream(seed_, "operator.judgement." + std::to_string(trial));
-  auto& j = judgement_;
-  plan_entry_A_ = anatomy_.entry_A + skill_.entry_sd * (j.normal() * anatomy_.medial_A +
-                                                        j.normal() * anatomy_.cephalad_A);
-  plan_normal_A_ = (anatomy_.normal_A + skill_.normal_sd * (j.normal() * anatomy_.medial_A +
-                                                            j.normal() * anatomy_.cephalad_A))
-                       .normalized();
-  depth_error_ = j.normal(0, skill_.depth_sd);
-  bevel_A_ = bevelOf(trial);
-  entry_seen_A_ = plan_entry_A_;
-  moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
+  plan_.begin(trial);
+  entry_seen_A_ = plan_.entry_A();
+  moveTo(needleAt(plan_.entry_A() + kAbove * plan_.normal_A(), -plan_.normal_A()), now_s,
          skill_.travel_speed);
   plunger_wanted_ = 0;
   begin(NeedleStep::approach, now_s, 0);
@@ -118,18 +97,6 @@ void Operator::moveTo(const Pose& X_AT, double now_s, double speed) {
       std::acos(std::clamp(axis_A_.dot(X_AT.rotation() * Vec3::UnitZ()), -1.0, 1.0));
   move_ = MinJerk(from, X_AT, now_s, std::max(way / speed, turn / 1.0));  // wrists turn 1 rad/s
   moving_ = true;
-}
-
-/// By the landmarks, as well as one can judge; experts lean toward the clavicle and let it guide
-/// them, where the skin could be felt.
-Vec3 Operator::firstAim() {
-  const Vec3 aim = (anatomy_.aim_A - entry_seen_A_).normalized();
-  const Vec3 to_bone = (anatomy_.cephalad_A - anatomy_.posterior_A).normalized();
-  const double lean = std::min(feels_ ? skill_.guide : skill_.guide_unfelt, anatomy_.most_lean);
-  return (aim + std::tan(lean) * to_bone +
-          skill_.direction_sd * (judgement_.normal() * anatomy_.posterior_A +
-                                 judgement_.normal() * anatomy_.cephalad_A))
-      .normalized();
 }
 
 /// Turns about the entry, keeping the insertion.
@@ -164,10 +131,10 @@ void Operator::advancing(double now_s) {
   insertion_ += skill_.advance_speed * kThought;
   if (reaction_.bloodFlows()) return dwell(now_s);
   if (reaction_.injury()) return tryElsewhere(now_s, insertion_ - skill_.first_depth);
-  const Vec3 sideways = withoutAlong(reaction_.felt(), axis_A_);
-  const bool bone = sideways.norm() > skill_.notice_bone_N ||
-                    reaction_.felt().dot(axis_A_) > 3 * skill_.notice_bone_N;
-  const bool dry = seenInsertion() > anatomy_.vein_distance + skill_.search_margin;
+  const double along = reaction_.felt().dot(axis_A_);
+  const Vec3 sideways = reaction_.felt() - along * axis_A_;
+  const bool bone = sideways.norm() > skill_.notice_bone_N || along > 3 * skill_.notice_bone_N;
+  const bool dry = seenInsertion() > vein_distance_ + skill_.search_margin;
   if (!bone && !dry) return;
   tryElsewhere(now_s, bone ? kBackFromBone : insertion_ - skill_.first_depth);
   // The hand pushes against the bone: it yields the other way. After a dry pass: try another side.
@@ -194,16 +161,7 @@ void Operator::retreating(double now_s) {
 
 /// Redirects: away from bone, or in turn to the sides, always by a small angle.
 void Operator::turnAway(const Vec3& toward_A, double now_s) {
-  Vec3 toward = toward_A;
-  if (toward.isZero()) {
-    const Vec3 pattern[] = {anatomy_.posterior_A, anatomy_.cephalad_A, -anatomy_.posterior_A,
-                            -anatomy_.cephalad_A};
-    toward = pattern[passes_ % 4];
-  }
-  toward = withoutAlong(toward, axis_A_).normalized();
-  const double angle = skill_.redirect + skill_.redirect_sd * judgement_.normal();
-  aimAt((std::cos(angle) * axis_A_ + std::sin(angle) * toward).normalized(), now_s,
-        0.5 * skill_.turn_time);
+  aimAt(plan_.redirected(axis_A_, toward_A, passes_), now_s, 0.5 * skill_.turn_time);
   nudges_ = 0;
   begin(NeedleStep::redirect, now_s, 0);
 }
@@ -260,7 +218,7 @@ void Operator::step(double now_s) {
       return;
     case NeedleStep::approach:
       if (!arrived) return;
-      moveTo(needleAt(plan_entry_A_ + kHover * plan_normal_A_, -plan_normal_A_), now_s,
+      moveTo(needleAt(plan_.entry_A() + kHover * plan_.normal_A(), -plan_.normal_A()), now_s,
              0.25 * skill_.travel_speed);
       return begin(NeedleStep::lower, now_s, 0);
     case NeedleStep::lower:
@@ -273,7 +231,7 @@ void Operator::step(double now_s) {
     case NeedleStep::settle:
       entry_seen_A_ =
           bearings_.X_AT().translation() -
-          std::max((bearings_.X_AT().translation() - plan_entry_A_).dot(axis_A_), 0.0) * axis_A_;
+          std::max((bearings_.X_AT().translation() - plan_.entry_A()).dot(axis_A_), 0.0) * axis_A_;
       return begin(NeedleStep::deepen, now_s, 0);
     case NeedleStep::deepen:
       if (seenInsertion() < skill_.first_depth) {
@@ -281,7 +239,7 @@ void Operator::step(double now_s) {
         return;
       }
       holdHere();
-      aimAt(firstAim(), now_s + skill_.pause, skill_.turn_time);
+      aimAt(plan_.firstAim(entry_seen_A_, feels_), now_s + skill_.pause, skill_.turn_time);
       return begin(NeedleStep::turn, now_s, skill_.pause);
     case NeedleStep::turn:
     case NeedleStep::redirect:
@@ -306,7 +264,7 @@ void Operator::leaving(double now_s) {
   plunger_wanted_ = 0;
   if (insertion_ > -kHover) return;
   // Out of the skin: up and away from it, since behind a flat needle the chest may bulge.
-  moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
+  moveTo(needleAt(plan_.entry_A() + kAbove * plan_.normal_A(), -plan_.normal_A()), now_s,
          skill_.travel_speed);
   begin(NeedleStep::rest, now_s, 0);
 }

@@ -1,24 +1,34 @@
+#include "apps/twin/operator_skills.h"
+
 #include <numbers>
 
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
-#include "anatomy/geometry/pose.h"
-#include "apps/twin/operator.h"
-#include "apps/twin/palpating_hand.h"
 
 namespace palpa::twin {
-namespace {}  // namespace
+namespace {
 
-OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
-  const JsonFile file(path);
+constexpr std::size_t kMostPressures = 3;
+
+/// The figures that every hand has.
+template <typename Skill>
+Skill handOf(const JsonFile& file) {
   file.needVersion(1);
-  OperatorSkill s;
+  Skill s;
   s.name = file.text("name");
   s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
             file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
   s.tremor_rms = kMm * file.number("tremor_rms_mm", 0, 5);
-  s.turn_tremor_rms = kDegree * file.number("turn_tremor_rms_deg", 0, 10);
   s.look_sd = kMm * file.number("look_sd_mm", 0, 50);
+  return s;
+}
+
+}  // namespace
+
+OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  auto s = handOf<OperatorSkill>(file);
+  s.turn_tremor_rms = kDegree * file.number("turn_tremor_rms_deg", 0, 10);
   s.depth_sd = kMm * file.number("depth_sd_mm", 0, 50);
   s.entry_sd = kMm * file.number("entry_sd_mm", 0, 50);
   s.normal_sd = kDegree * file.number("normal_sd_deg", 0, 90);
@@ -45,19 +55,9 @@ OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
   return s;
 }
 
-namespace {
-constexpr std::size_t kMostPressures = 3;
-}  // namespace
-
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
-  PalpatingSkill s;
-  s.name = file.text("name");
-  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
-            file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
-  s.tremor_rms = kMm * file.number("tremor_rms_mm", 0, 5);
-  s.look_sd = kMm * file.number("look_sd_mm", 0, 50);
+  auto s = handOf<PalpatingSkill>(file);
   s.strip = kMm * file.number("strip_mm", 1, 200);
   s.step = kMm * file.number("step_mm", 1, 200);
   s.wander = kMm * file.number("wander_mm", 0, 50);
@@ -85,6 +85,36 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   s.hard_from = file.number("hard_from", 0, 2);
   s.feels_around = file.integer("feels_around", 0, 1) == 1;
   s.knows_anatomy = file.integer("knows_anatomy", 0, 1) == 1;
+  return s;
+}
+
+SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  auto s = handOf<SearchingSkill>(file);
+  s.press = file.number("press_N", 0.05, 20);
+  s.stroke_press = file.number("stroke_press_N", 0.05, 20);
+  s.scan_speed = kMm * file.number("scan_speed_mm_per_s", 1, 500);
+  s.stroke_speed = kMm * file.number("stroke_speed_mm_per_s", 1, 500);
+  s.settle_speed = kMm * file.number("settle_speed_mm_per_s", 0.1, 100);
+  s.rounds = file.integer("rounds", 2, 20);
+  s.jolts = file.integer("jolts", 1, 100);
+  s.stroke_s = file.number("stroke_s", 0.1, 10);
+  s.strokes = file.integer("strokes", 1, 10);
+  s.weber_roughness = file.number("weber_roughness", 0, 2);
+  s.jolt = {kMm * file.number("jolt_least_mm_per_s", 0, 100), file.number("jolt_contrast", 0, 20),
+            file.number("jolt_spread", 0, 1), kMm * file.number("rough_floor_mm_per_s", 0, 100)};
+  return s;
+}
+
+SqueezingSkill readSqueezingSkill(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  auto s = handOf<SqueezingSkill>(file);
+  s.close_speed = kMm * file.number("close_speed_mm_per_s", 0.1, 500);
+  s.hold = file.number("hold_N", 0.05, 20);
+  s.squeeze = file.number("squeeze_N", 0.05, 20);
+  if (s.squeeze <= s.hold) file.refuse("squeeze_N", "must be more than hold_N");
+  s.weber_stiffness = file.number("weber_stiffness", 0, 1);
+  s.weber_weight = file.number("weber_weight", 0, 1);
   return s;
 }
 

@@ -6,9 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
-#include "anatomy/base/units.h"
 #include "anatomy/geometry/pose.h"
 #include "apps/twin/hand_motion.h"
 #include "apps/twin/hand_senses.h"
@@ -332,30 +330,6 @@ double orientationBy(const std::vector<double>& angles, double half, double star
 std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor,
                                     const Pose& X_ET, std::uint64_t seed) {
   return std::make_unique<SearchingHand>(skill, floor, X_ET, seed);
-}
-
-SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
-  const JsonFile file(path);
-  file.needVersion(1);
-  SearchingSkill s;
-  s.name = file.text("name");
-  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
-            file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
-  s.tremor_rms = kMm * file.number("tremor_rms_mm", 0, 5);
-  s.look_sd = kMm * file.number("look_sd_mm", 0, 50);
-  s.press = file.number("press_N", 0.05, 20);
-  s.stroke_press = file.number("stroke_press_N", 0.05, 20);
-  s.scan_speed = kMm * file.number("scan_speed_mm_per_s", 1, 500);
-  s.stroke_speed = kMm * file.number("stroke_speed_mm_per_s", 1, 500);
-  s.settle_speed = kMm * file.number("settle_speed_mm_per_s", 0.1, 100);
-  s.rounds = file.integer("rounds", 2, 20);
-  s.jolts = file.integer("jolts", 1, 100);
-  s.stroke_s = file.number("stroke_s", 0.1, 10);
-  s.strokes = file.integer("strokes", 1, 10);
-  s.weber_roughness = file.number("weber_roughness", 0, 2);
-  s.jolt = {kMm * file.number("jolt_least_mm_per_s", 0, 100), file.number("jolt_contrast", 0, 20),
-            file.number("jolt_spread", 0, 1), kMm * file.number("rough_floor_mm_per_s", 0, 100)};
-  return s;
 }
 
 }  // namespace palpa::twin

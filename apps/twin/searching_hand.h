@@ -1,32 +1,12 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "apps/twin/hand.h"
-#include "apps/twin/hand_senses.h"
+#include "apps/twin/operator_skills.h"
 
 namespace palpa::twin {
-
-/// How a simulated person searches a floor; fixed beforehand in assets/operators/search_*.json,
-/// each figure with unit and source. SI units here.
-struct SearchingSkill {
-  std::string name;
-  HandGrip grip;
-  double tremor_rms = 0, look_sd = 0;  ///< m, in the hand
-  double press = 0, stroke_press = 0;  ///< N, on the floor: to find edges, to tell a texture
-  double scan_speed = 0, stroke_speed = 0,
-         settle_speed = 0;     ///< m/s: going round, stroking over a texture, looking for a pit
-  int rounds = 0;              ///< at most, before deciding where the elements are
-  int jolts = 0;               ///< that make a round worth deciding by
-  double stroke_s = 0;         ///< on each texture, each time
-  int strokes = 0;             ///< times over each texture before deciding
-  double weber_roughness = 0;  ///< standard deviation of ln of what is felt
-  JoltSense::Limits jolt;
-};
-SearchingSkill readSearchingSkill(const std::filesystem::path& file);
 
 /// What anybody sees and has been told: the floor's outline, magnified; that three elements lie
 /// equally spaced on a circle, each with a pit in its middle.

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
-#include "anatomy/base/units.h"
 #include "anatomy/geometry/pose.h"
 #include "apps/twin/hand_motion.h"
 #include "apps/twin/hand_senses.h"
@@ -239,24 +237,6 @@ std::array<std::unique_ptr<Hand>, 2> squeezingHands(const SqueezingSkill& skill,
   const auto mind = std::make_shared<SqueezingMind>(skill, object, X_ET, seed);
   return {std::make_unique<SqueezingFinger>(mind, skill.grip, 0),
           std::make_unique<SqueezingFinger>(mind, skill.grip, 1)};
-}
-
-SqueezingSkill readSqueezingSkill(const std::filesystem::path& path) {
-  const JsonFile file(path);
-  file.needVersion(1);
-  SqueezingSkill s;
-  s.name = file.text("name");
-  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
-            file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
-  s.tremor_rms = kMm * file.number("tremor_rms_mm", 0, 5);
-  s.look_sd = kMm * file.number("look_sd_mm", 0, 50);
-  s.close_speed = kMm * file.number("close_speed_mm_per_s", 0.1, 500);
-  s.hold = file.number("hold_N", 0.05, 20);
-  s.squeeze = file.number("squeeze_N", 0.05, 20);
-  if (s.squeeze <= s.hold) file.refuse("squeeze_N", "must be more than hold_N");
-  s.weber_stiffness = file.number("weber_stiffness", 0, 1);
-  s.weber_weight = file.number("weber_weight", 0, 1);
-  return s;
 }
 
 }  // namespace palpa::twin

@@ -1,25 +1,12 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <memory>
-#include <string>
 
 #include "apps/twin/hand.h"
+#include "apps/twin/operator_skills.h"
 
 namespace palpa::twin {
-
-/// How a simulated person compares two things between two fingers; fixed beforehand in
-/// assets/operators/squeeze_*.json, each figure with unit and source. SI units here.
-struct SqueezingSkill {
-  std::string name;
-  HandGrip grip;                       ///< of each finger's tool
-  double tremor_rms = 0, look_sd = 0;  ///< m
-  double close_speed = 0;              ///< m/s, of each finger, when it closes and squeezes
-  double hold = 0, squeeze = 0;        ///< N: to lift; to tell how hard it is
-  double weber_stiffness = 0, weber_weight = 0;  ///< standard deviation of ln of what is felt
-};
-SqueezingSkill readSqueezingSkill(const std::filesystem::path& file);
 
 /// What anybody sees: the object on its stand. O: its middle at rest, x from the second tool to the
 /// first, z up.

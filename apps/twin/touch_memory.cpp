@@ -1,8 +1,9 @@
-#include "anatomy/base/quantile.h"
-#include "apps/twin/palpating_hand.h"
+#include "apps/twin/touch_memory.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "anatomy/base/quantile.h"
 
 namespace palpa::twin {
 namespace {

@@ -72,6 +72,18 @@ TEST_F(BadInput, TaskMissingOrDamaged) {
   expectRefused(with(here.file("alone.json", task.dump())), "needle.json");
 }
 
+/// Whoever knows how to hold a needle does not know how to palpate.
+TEST_F(BadInput, OperatorOfAnotherTask) {
+  const auto with = [](const std::string& command, const std::string& who) {
+    return Arguments{command,  "--operator", (kAssets / "operators" / who).string(),
+                     "--fast", "--quiet",    "--out",
+                     "r"};
+  };
+  for (const char* command : {"palpation", "search", "squeeze"})
+    expectRefused(with(command, "expert.json"), "expert.json");
+  expectRefused(with("paracentesis", "palpation_expert.json"), "palpation_expert.json");
+}
+
 TEST_F(BadInput, PatientMissingOrDamaged) {
   ASSERT_EQ(palpa({"patient", "build", "--out", "whole.glb"}, here.path()).exit_code, 0);
   const std::string whole = contentOf(here / "whole.glb");

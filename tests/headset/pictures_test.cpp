@@ -64,6 +64,22 @@ TEST(HeadsetPictures, BothEyesSeeTheBallWhereItIs) {
   }
 }
 
+/// The ball is a vein: where a presentation shows no anatomy, neither eye sees it.
+TEST(HeadsetPictures, WhatLiesInsideIsShownOnlyWhereItMayBe) {
+  for (const bool inside : {true, false}) {
+    HeadsetViewSetup setup;
+    setup.inside = inside;
+    Worn worn("blend=additive;eyes=640x600,640x600", kBall, std::move(setup));
+    ASSERT_EQ(worn.show(3), 3);
+    for (int eye = 0; eye < 2; ++eye) {
+      const Seen ball = seenIn(worn.xr.picture(eye),
+                               [](const unsigned char* p) { return p[0] + p[1] + p[2] > 30; });
+      EXPECT_EQ(ball.count > 0, inside) << "eye " << eye;
+    }
+    expectClean(worn.over(), inside ? "inside" : "nothing");
+  }
+}
+
 TEST(HeadsetPictures, AnyFormatSizeAndNumberOfPictures) {
   for (const char* plan : {"images=1", "images=5;formats=8058", "formats=1234,881A", "formats=8059",
                            "formats=8814", "formats=8C41,8C43", "formats=8059,8058;blend=alpha",

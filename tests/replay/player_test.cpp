@@ -89,8 +89,12 @@ TEST(Moments, TheyAreThoseOfTheTrialAndBloodFillsAQuarterASecond) {
   haptics::FlightRecord other = tickAt(0, 0, Tissue::air);
   other.commands.trial = 1;
   reader.add(other);
-  for (int i = 0; i < 2000; ++i)
-    reader.add(tickAt(1 + 1e-3 * i, 0.5, i < 1000 ? Tissue::air : Tissue::vein_lumen));
+  for (int i = 0; i < 2000; ++i) {
+    haptics::FlightRecord record =
+        tickAt(1 + 1e-3 * i, 0.5, i < 1000 ? Tissue::air : Tissue::vein_lumen);
+    record.commands.asked = i >= 1800;
+    reader.add(record);
+  }
   const std::vector<NeedleMoment>& moments = reader.moments();
   ASSERT_EQ(moments.size(), 500u);  // every 4 ms
   EXPECT_EQ(moments[249].flows, Tissue::air);
@@ -105,6 +109,8 @@ TEST(Moments, TheyAreThoseOfTheTrialAndBloodFillsAQuarterASecond) {
   EXPECT_EQ(status.trial, 2);
   EXPECT_FALSE(status.force_feedback);
   EXPECT_EQ(status.flows, Tissue::vein_lumen);
+  EXPECT_TRUE(status.asked);
+  EXPECT_FALSE(statusAt(moments[400], 2, false).asked);
 }
 
 }  // namespace

@@ -5,32 +5,21 @@
 #include "anatomy/base/error.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/record/session_file.h"
-#include "apps/session/needle_session.h"
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_options.h"
 #include "apps/training/trial_words.h"
+#include "tests/session/quick_sessions.h"
 
 /// Assessment: no aid adds force in any tick, and a needle's trial ends at the fourth pass.
 namespace palpa::session {
 namespace {
 
-SessionOptions quick(bool assess, std::uint64_t seed = 3) {
-  SessionOptions options;
-  options.who = OperatorKind::expert;
-  options.seed = seed;
+SessionOptions settled(bool assess, std::uint64_t seed = 3) {
+  SessionOptions options = quick(OperatorKind::expert, seed);
   options.assess = assess;
-  options.fast = options.no_views = options.quiet = true;
-  options.display = scene::Display::offscreen;
   settle(options);
   return options;
-}
-
-std::filesystem::path freshPlace(const std::string& name) {
-  std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session" / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
 }
 
 /// What aids did in a session, from every recorded tick.
@@ -65,15 +54,14 @@ void expectNoAid(const Aids& aids) {
 
 Aids ofNeedle(const SessionOptions& options, const std::string& name) {
   const std::filesystem::path folder = freshPlace(name);
-  NeedleWorld world(options);
-  world.station.camera_rate_Hz = 1;
+  Quick<NeedleWorld> world(options);
   runNeedleSession(options, world, folder);
   return aidsIn(folder);
 }
 
 TEST(Assessment, NoAidAddsForceToANeedle) {
-  expectNoAid(ofNeedle(quick(true), "assessed_needle"));
-  SessionOptions practice = quick(false);  // the same trial with cues: the test would see them
+  expectNoAid(ofNeedle(settled(true), "assessed_needle"));
+  SessionOptions practice = settled(false);  // the same trial with cues: the test would see them
   practice.augment = true;
   const Aids aids = ofNeedle(practice, "practice_needle");
   EXPECT_GT(aids.with_force, 0);
@@ -83,19 +71,17 @@ TEST(Assessment, NoAidAddsForceToANeedle) {
 }
 
 TEST(Assessment, NoAidAddsForceToAPalpation) {
-  const SessionOptions options = quick(true);
+  const SessionOptions options = settled(true);
   const std::filesystem::path folder = freshPlace("assessed_palpation");
-  PalpationWorld world(options);
-  world.station.camera_rate_Hz = 1;
+  Quick<PalpationWorld> world(options);
   runPalpation(options, world, folder);
   expectNoAid(aidsIn(folder));
 }
 
 TEST(Assessment, NoAidAddsForceToASearch) {
-  const SessionOptions options = quick(true);
+  const SessionOptions options = settled(true);
   const std::filesystem::path folder = freshPlace("assessed_search");
-  SearchWorld world(options);
-  world.station.camera_rate_Hz = 1;
+  Quick<SearchWorld> world(options);
   runSearch(options, world, folder);
   expectNoAid(aidsIn(folder));
 }
@@ -116,7 +102,7 @@ TEST(Assessment, EveryAidIsRefused) {
   refused([](SessionOptions& o) { o.mode = "all"; });
   refused([](SessionOptions& o) { o.blocks = true; });
   refused([](SessionOptions& o) { o.presentation = presentation::Presentation{}; });
-  const SessionOptions left = quick(true);
+  const SessionOptions left = settled(true);
   EXPECT_TRUE(presentation::unaided(shownIn(left)));
   EXPECT_FALSE(left.demonstration);
   EXPECT_EQ(left.role, training::Role::assessed);
@@ -134,15 +120,14 @@ TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
   const std::filesystem::path folder = freshPlace("passes");
   constexpr std::uint64_t kSeed = 610;  // finds the vein at last
   const auto run = [&](bool assess, int most) {
-    SessionOptions options = quick(assess, kSeed);
+    SessionOptions options = settled(assess, kSeed);
     options.who = OperatorKind::novice;
-    NeedleWorld world(options);
-    world.station.camera_rate_Hz = 1;
+    Quick<NeedleWorld> world(options);
     if (most > 0) world.task.most_passes.assessed = most;
     EXPECT_EQ(world.task.most_passes.practice, 0);
     return runNeedleSession(options, world, freshPlace("passes")).trials.at(0).assessment;
   };
-  NeedleWorld shipped(quick(true));
+  NeedleWorld shipped(settled(true));
   EXPECT_EQ(shipped.task.most_passes.assessed, 3);
   const assess::TrialAssessment practice = run(false, 0);
   ASSERT_GE(figureOf(practice, "needle_passes"), 2);

@@ -7,6 +7,7 @@
 
 #include "apps/record/session_file.h"
 #include "apps/session/search_session.h"
+#include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
 
 /// Augmented searches of a simulated person, tick by tick: nothing but the floor and the cues is
@@ -90,20 +91,12 @@ Seen look(const std::filesystem::path& file, const SearchWorld& world,
 }
 
 TEST(AugmentedSearch, NothingIsFeltButFloorAndCues) {
-  SessionOptions options;
+  SessionOptions options = quick(OperatorKind::expert, 4001);
   options.command = "search";
-  options.who = OperatorKind::expert;
   options.mode = "augmented";
   options.trials = test::counted(2, 50);
-  options.seed = 4001;
-  options.fast = options.no_views = options.quiet = true;
-  options.display = scene::Display::offscreen;
-  SearchWorld world(options);
-  world.station.camera_rate_Hz = 1;
-  const std::filesystem::path folder =
-      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/augmented_search";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  Quick<SearchWorld> world(options);
+  const std::filesystem::path folder = freshPlace("augmented_search");
   EXPECT_EQ(runSearch(options, world, folder).trials.size(),
             static_cast<std::size_t>(options.trials));
   const Seen seen = look(folder / "session.palpa", world, options);

@@ -1,14 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string>
 
 #include "anatomy/base/quantile.h"
 #include "apps/assess/statistics/tests_of_means.h"
-#include "apps/session/needle_session.h"
 #include "apps/training/trial_words.h"
+#include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
 
 /// Simulated operators on the virtual bench: do the scores tell experts from novices, and does
@@ -73,51 +75,28 @@ int seeds() { return palpa::test::counted(12, 20); }
 /// `custom`: of a custom operator, its file.
 Cohort cohort(OperatorKind who, bool force_feedback, int seeds, const std::string& custom = "") {
   Cohort result;
-  const std::filesystem::path folder =
-      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/cohort";
-  SessionOptions options;
-  options.who = who;
+  SessionOptions options = quick(who);
   options.operator_file = custom;
   options.force_feedback = force_feedback;
-  options.fast = options.no_views = options.quiet = true;
-  options.display = scene::Display::offscreen;
-  NeedleWorld world(options);
-  world.station.camera_rate_Hz = 1;  // pictures change no score; the ready check needs some
-  for (int i = 0; i < seeds; ++i) {
-    options.seed = 1 + static_cast<std::uint64_t>(i);
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    const SessionResult session = runNeedleSession(options, world, folder);
-    const assess::TrialAssessment& trial = session.trials.at(0).assessment;
-    EXPECT_TRUE(trial.simulated);
-    add(session.trials.at(0), world, &result);
-    std::printf("%s%.0f",
-                i                ? ", "
-                : force_feedback ? "totals: "
-                                 : "without force feedback: ",
-                trial.total);
-  }
-  std::printf("\n");
+  Quick<NeedleWorld> world(options);
+  std::string totals = force_feedback ? "totals:" : "without force feedback:";
+  trySeeds(options, world, seeds, [&](const task_needle::CompletedTrial& trial) {
+    EXPECT_TRUE(trial.assessment.simulated);
+    add(trial, world, &result);
+    totals += " " + std::to_string(std::lround(trial.assessment.total));
+  });
+  std::printf("%s\n", totals.c_str());
   return result;
 }
 
 /// What a person on a Falcon is shown first: an expert on the same station, held by the bench.
 TEST(Cohort, TheExpertOfTheDemonstrationSucceedsOnTheFalconsStation) {
-  const std::filesystem::path folder =
-      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/falcon";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  SessionOptions options;
-  options.who = OperatorKind::expert;
+  SessionOptions options = quick(OperatorKind::expert, 7001);
   options.station = PALPA_SOURCE_DIR "/assets/stations/falcon.json";
-  options.seed = 7001;
   options.role = training::Role::demonstration;
-  options.fast = options.no_views = options.quiet = true;
-  options.display = scene::Display::offscreen;
-  NeedleWorld world(options);
-  world.station.camera_rate_Hz = 1;
+  Quick<NeedleWorld> world(options);
   world.station.safety.deadman_button = 1;  // nobody holds it: it must not count here
-  const SessionResult session = runNeedleSession(options, world, folder);
+  const SessionResult session = runNeedleSession(options, world, freshPlace("falcon"));
   EXPECT_TRUE(session.trials.at(0).assessment.values.success)
       << session.trials.at(0).assessment.summary;
 }
@@ -125,21 +104,12 @@ TEST(Cohort, TheExpertOfTheDemonstrationSucceedsOnTheFalconsStation) {
 /// Whatever he is doing when a trial ends, the simulated operator takes the needle out for the next
 /// one.
 TEST(Cohort, TheNeedleIsOutAgainWheneverATrialEnds) {
-  const std::filesystem::path folder =
-      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/broken_off";
-  SessionOptions options;
-  options.who = OperatorKind::expert;
-  options.seed = 1;
+  SessionOptions options = quick(OperatorKind::expert);
   options.trials = 2;
-  options.fast = options.no_views = options.quiet = true;
-  options.display = scene::Display::offscreen;
-  NeedleWorld world(options);
-  world.station.camera_rate_Hz = 1;
+  Quick<NeedleWorld> world(options);
   for (double limit_s = 2; limit_s < 12; limit_s += palpa::test::counted(2, 1)) {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
     world.task.time_limit_s = limit_s;
-    EXPECT_EQ(runNeedleSession(options, world, folder).trials.size(), 2u)
+    EXPECT_EQ(runNeedleSession(options, world, freshPlace("broken_off")).trials.size(), 2u)
         << limit_s;  // else the ready check throws
   }
 }
@@ -176,7 +146,7 @@ TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
 /// The expert as it was before its lean was bounded by the vein's width and by what is felt.
 TEST(Cohort, WhoLeansOnABoneThatIsNotFeltRunsIntoIt) {
   const std::filesystem::path shipped(PALPA_SOURCE_DIR "/assets/operators/expert.json"),
-      file = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/leaning.json";
+      file = freshPlace("leaning") / "expert.json";
   nlohmann::json leaning = nlohmann::json::parse(std::ifstream(shipped));
   leaning["guide_deg"]["value"] = leaning["guide_unfelt_deg"]["value"] = 7;
   std::ofstream(file) << leaning;

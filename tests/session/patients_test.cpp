@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/quantile.h"
 #include "apps/assess/statistics/tests_of_means.h"
-#include "apps/session/needle_session.h"
+#include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
 
 /// The score on many bodies: simulated experts who have studied a patient's pictures, and simulated
@@ -23,30 +22,22 @@ struct Tried {
 };
 
 SessionOptions onPatient(std::uint64_t patient_seed) {
-  SessionOptions options;
+  SessionOptions options = quick(OperatorKind::expert);
   options.patient_seed = patient_seed;
   options.side = patient_seed % 2 ? anatomy::Side::left : anatomy::Side::right;
-  options.fast = options.no_views = options.quiet = true;
-  options.display = scene::Display::offscreen;
   return options;
 }
 
 Tried tries(SessionOptions options, OperatorKind who, int seeds, NeedleWorld& world) {
-  const std::filesystem::path folder =
-      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/patients";
   options.who = who;
   options.knows_patient = who == OperatorKind::expert;
   Tried tried;
-  for (int i = 0; i < seeds; ++i) {
-    options.seed = 1 + static_cast<std::uint64_t>(i);
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    const SessionResult session = runNeedleSession(options, world, folder);
-    const assess::TrialAssessment& trial = session.trials.at(0).assessment;
+  trySeeds(options, world, seeds, [&](const task_needle::CompletedTrial& done) {
+    const assess::TrialAssessment& trial = done.assessment;
     tried.successes += trial.values.success;
     tried.totals.push_back(trial.total);
     tried.without_time.push_back(trial.total - 0.01 * trial.values.time_ms);
-  }
+  });
   return tried;
 }
 
@@ -54,15 +45,13 @@ TEST(Patients, AreScoredAlikeWhateverTheirBuild) {
   constexpr int kSeeds = 3;
   const int bodies = test::counted(1, 200);
   SessionOptions reference = onPatient(0);
-  NeedleWorld there(reference);
-  there.station.camera_rate_Hz = 1;
+  Quick<NeedleWorld> there(reference);
   const Tried usual = tries(reference, OperatorKind::expert, kSeeds, there);
   int admitted = 0, successes = 0, alike = 0, alike_without_time = 0;
   std::vector<double> experts, novices;
   for (int body = 1; body <= bodies; ++body) {
     SessionOptions options = onPatient(static_cast<std::uint64_t>(body));
-    NeedleWorld world(options);
-    world.station.camera_rate_Hz = 1;
+    Quick<NeedleWorld> world(options);
     if (!world.not_scored.empty()) {
       std::printf("patient %d: %s\n", body, world.not_scored.c_str());
       continue;

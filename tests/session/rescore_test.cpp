@@ -7,6 +7,7 @@
 #include "apps/evidence/evidence_records.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/session/needle_session.h"
+#include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
 #include "tests/support/setting.h"
 
@@ -46,11 +47,9 @@ void expectSameMetrics(const std::vector<metrics::MetricValue>& live,
 
 /// Records a session and judges it again from its file alone, with no place for other ones; answers
 /// how many trials.
-int recordAndRescore(const SessionOptions& options, NeedleWorld& world,
-                     const std::filesystem::path& folder) {
+int recordAndRescore(const SessionOptions& options, NeedleWorld& world) {
   const test::Setting nowhere("TMPDIR", "/nowhere");
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = freshPlace("rescore");
   const SessionResult session = runNeedleSession(options, world, folder);
   const evidence::RecordedSession recorded(folder / "session.palpa");
   int trials = 0;
@@ -70,13 +69,10 @@ TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
   const int each = palpa::test::counted(1, 13);  // 104 of all eight kinds
   int trials = 0;
   for (const anatomy::Side side : {anatomy::Side::right, anatomy::Side::left}) {
-    SessionOptions options;
+    SessionOptions options = quick(OperatorKind::expert);
     options.side = side;
-    options.fast = options.no_views = options.quiet = true;
-    options.display = scene::Display::offscreen;
     options.trials = each;
-    NeedleWorld world(options);
-    world.station.camera_rate_Hz = 1;  // pictures change no score; the ready check needs some
+    Quick<NeedleWorld> world(options);
     int kind = 0;
     for (const OperatorKind who : {OperatorKind::expert, OperatorKind::novice})
       for (const bool felt : {true, false}) {
@@ -85,8 +81,7 @@ TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
         options.who = who;
         options.force_feedback = felt;
         options.seed = 300 + static_cast<std::uint64_t>(100 * trials);
-        trials += recordAndRescore(
-            options, world, std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/rescore");
+        trials += recordAndRescore(options, world);
       }
   }
   EXPECT_GE(trials, palpa::test::counted(2, 100));

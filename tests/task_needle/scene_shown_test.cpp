@@ -13,12 +13,12 @@ presentation::Presentation shipped(const std::string& name) {
                                         name + ".json");
 }
 
-TaskStatus statusOf(training::Role role) {
+TaskStatus statusOf(training::Role role, bool force_feedback) {
   TaskStatus status;
   status.state = trial::TrialState::running;
   status.trial = status.trials = 1;
   status.role = role;
-  status.force_feedback = false;
+  status.force_feedback = force_feedback;
   status.step = "Phase 2: advance to the vein";
   status.flows = Tissue::vein_lumen;
   status.blood = 0.4;
@@ -38,14 +38,26 @@ runtime::ToolState toolAt(double depth) {
   return tool;
 }
 
+/// Somebody who wears a headset and feels its controller shake.
+class CountingHead final : public scene::HeadDisplay {
+ public:
+  bool wait(bool) override { return true; }
+  void show(const scene::SceneState&) override {}
+  void pulse(double, double) override { ++pulses; }
+  std::string trouble() const override { return ""; }
+  int pulses = 0;
+};
+
 /// After some steps of an insertion.
-scene::SceneState sceneIn(const presentation::Presentation& shown) {
+scene::SceneState sceneIn(const presentation::Presentation& shown, bool force_feedback = false,
+                          scene::HeadDisplay* head = nullptr) {
   runtime::Bus bus(runtime::TimeMode::virtual_time);
   TaskChannels channels(runtime::TimeMode::virtual_time);
   scene::SceneState seen;
   NeedleSceneSetup setup;
   setup.stage.camera = test::webcam();
   setup.stage.shown = shown;
+  setup.stage.head = head;
   setup.stage.watch = [&](const scene::SceneState& state, const trial::TrialStatus&, std::int64_t) {
     seen = state;
   };
@@ -53,7 +65,7 @@ scene::SceneState sceneIn(const presentation::Presentation& shown) {
   NeedleScene scene(setup, bus, channels);
   std::int64_t now = 0;
   for (int i = 1; i <= 10; ++i, now += 33'333'333) {
-    channels.status_to_scene.publish(statusOf(training::Role::scored), now);
+    channels.status_to_scene.publish(statusOf(training::Role::scored, force_feedback), now);
     bus.haptic_to_scene.publish(toolAt(0.002 * i), now);
     scene.step(now);
   }
@@ -118,6 +130,15 @@ TEST(SceneShown, WhereNoForceIsFeltPracticeDoesNotTellIt) {
   EXPECT_EQ(seen.hud.force + seen.hud.depth + seen.hud.touched, "");
   EXPECT_FALSE(seen.hud.alarm);
   EXPECT_GT(seen.trail_A.size(), 0u);
+}
+
+/// A controller that shakes would be a force by another way.
+TEST(SceneShown, AControllerTellsNoLayerWhereNoForceIsFelt) {
+  CountingHead felt, not_felt;
+  sceneIn(shipped("practice"), true, &felt);
+  EXPECT_GT(felt.pulses, 0);
+  sceneIn(shipped("practice"), false, &not_felt);
+  EXPECT_EQ(not_felt.pulses, 0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "apps/twin/palpating_hand.h"
+#include "apps/twin/touch_memory.h"
 
 #include <gtest/gtest.h>
 
