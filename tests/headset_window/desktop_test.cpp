@@ -13,12 +13,16 @@ struct Ended {
   int code = -1;
   std::string said;
 };
-Ended interruptedAfter(int seconds, const std::string& arguments, const test::TestXr& xr) {
+/// So many seconds after the file `begun` is there, however long that takes: two minutes at most.
+Ended interruptedAfter(int seconds, const std::string& begun, const std::string& arguments,
+                       const test::TestXr& xr) {
   const std::string folder = xr.folder().string();
   const std::string command =
-      "timeout --foreground --preserve-status -s INT " + std::to_string(seconds) + " " +
-      PALPA_PROGRAM + " paracentesis --display openxr --operator person --quiet --out " + folder +
-      "/out " + arguments + " >/dev/null 2>" + folder + "/said.txt";
+      std::string(PALPA_PROGRAM) +
+      " paracentesis --display openxr --operator person --quiet --out " + folder + "/out " +
+      arguments + " >/dev/null 2>" + folder + "/said.txt & program=$!; " +
+      "for i in $(seq 1200); do [ -s " + folder + "/out/" + begun + " ] && break; sleep 0.1; " +
+      "done; sleep " + std::to_string(seconds) + "; kill -TERM $program; wait $program";
   Ended run;
   run.code = std::system(command.c_str());
   std::ifstream file(folder + "/said.txt");
@@ -29,7 +33,8 @@ Ended interruptedAfter(int seconds, const std::string& arguments, const test::Te
 TEST(HeadsetDesktop, APersonHasAWindowAndAHeadset) {
   if (!std::getenv("DISPLAY")) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64");
-  const Ended run = interruptedAfter(15, "--no-demonstration --no-familiarisation", xr);
+  const Ended run =
+      interruptedAfter(6, "session.palpa", "--no-demonstration --no-familiarisation", xr);
   EXPECT_EQ(run.code, 0) << run.said;
   EXPECT_EQ(run.said, "");
   const test::XrReport report = xr.report();
@@ -42,7 +47,7 @@ TEST(HeadsetDesktop, APersonHasAWindowAndAHeadset) {
 TEST(HeadsetDesktop, TheDemonstrationComesBefore) {
   if (!std::getenv("DISPLAY")) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64");
-  const Ended run = interruptedAfter(20, "", xr);
+  const Ended run = interruptedAfter(12, "demonstration/session.palpa", "", xr);
   EXPECT_EQ(run.said.find("headset"), std::string::npos) << run.said;
   EXPECT_EQ(run.said.find("EGL"), std::string::npos) << run.said;
 }
