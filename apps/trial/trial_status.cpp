@@ -7,7 +7,9 @@ namespace palpa::trial {
 
 std::string endNotice(training::Role role, training::Outcome outcome, const std::string& result) {
   using training::Outcome;
-  if (training::inAssessment(role)) return "Trial ended. The report gives the result";
+  const bool broken_off = outcome == Outcome::aborted || outcome == Outcome::voided;
+  if (training::inAssessment(role) && !broken_off)
+    return "Trial ended. The report gives the result";
   if (outcome == Outcome::success || outcome == Outcome::done) return result;
   return "Trial ended: " + training::nameOf(outcome);
 }

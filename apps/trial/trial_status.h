@@ -29,7 +29,7 @@ struct TrialStatus {
 };
 
 /// What stands on the screen until the next trial: `result` where the trial came to its end, else
-/// how it ended; in an assessment neither.
+/// how it ended; in an assessment neither, unless it was broken off, which judges nobody.
 std::string endNotice(training::Role role, training::Outcome outcome, const std::string& result);
 
 /// The scene shall keep a picture of this moment.

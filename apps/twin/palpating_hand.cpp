@@ -25,7 +25,7 @@ constexpr double kHome = 0.04;  // m above the top
 PalpatingHand::PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& phantom,
                              const Pose& X_ET, std::uint64_t seed)
     : skill_(skill),
-      phantom_(phantom),
+      X_AP_(phantom.X_AP),
       X_ET_(X_ET),
       X_TE_(X_ET.inverse()),
       noise_(seed, "palpating.noise"),
@@ -89,7 +89,7 @@ void PalpatingHand::next(double now_s) {
 
 void PalpatingHand::think(const Senses& senses) {
   const double now_s = static_cast<double>(senses.now_ns) * 1e-9;
-  const Pose X_PD = phantom_.X_AP.inverse() * bearings_.X_DA().inverse();
+  const Pose X_PD = X_AP_.inverse() * bearings_.X_DA().inverse();
   tip_now_P_ = X_PD * (senses.X_DE * X_ET_).translation();
   felt_N_ += kSharp * (-(X_PD.linear() * senses.f_fingers_D).z() - felt_N_);
   if (!senses.seen) return;
@@ -143,7 +143,7 @@ Hand::Action PalpatingHand::act(const Senses& senses, double dt) {
     last_look_ns_ = senses.now_ns;
     const bool first = !bearings_.taken();
     bearings_.look(senses.seen->X_AT, senses.X_DE * X_ET_, skill_.look_sd, hand_speed_, noise_);
-    if (first) tip_P_ = phantom_.X_AP.inverse() * bearings_.X_AT().translation();
+    if (first) tip_P_ = X_AP_.inverse() * bearings_.X_AT().translation();
   }
   if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
   if (senses.now_ns >= next_thought_ns_) {
@@ -153,7 +153,7 @@ Hand::Action PalpatingHand::act(const Senses& senses, double dt) {
   const Vec3 tip_P = tip_P_ + tremor_.next(dt);
   Action action;
   action.X_DH =
-      bearings_.X_DA() * phantom_.X_AP *
+      bearings_.X_DA() * X_AP_ *
       makePose(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), tip_P) *
       X_TE_;
   action.buttons = step_ == PalpationStep::mark ? 1u : 0u;

@@ -33,8 +33,7 @@ class PalpatingHand final : public Hand {
   void next(double now_s);
 
   PalpatingSkill skill_;
-  VisiblePhantom phantom_;
-  Pose X_ET_, X_TE_;
+  Pose X_AP_, X_ET_, X_TE_;
   RandomStream noise_;
   Tremor tremor_;
   Bearings bearings_;

@@ -11,6 +11,7 @@ namespace {
 /// Runs until it is interrupted, as by Ctrl-C; its exit code, and what it said on standard error.
 struct Ended {
   int code = -1;
+  bool begun = false;
   std::string said;
 };
 /// So many seconds after the file `begun` is there, however long that takes: two minutes at most.
@@ -25,6 +26,7 @@ Ended interruptedAfter(int seconds, const std::string& begun, const std::string&
       "done; sleep " + std::to_string(seconds) + "; kill -TERM $program; wait $program";
   Ended run;
   run.code = std::system(command.c_str());
+  run.begun = std::filesystem::exists(xr.folder() / "out" / begun);
   std::ifstream file(folder + "/said.txt");
   for (std::string line; std::getline(file, line);) run.said += line + "\n";
   return run;
@@ -35,6 +37,7 @@ TEST(HeadsetDesktop, APersonHasAWindowAndAHeadset) {
   const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64");
   const Ended run =
       interruptedAfter(6, "session.palpa", "--no-demonstration --no-familiarisation", xr);
+  EXPECT_TRUE(run.begun);
   EXPECT_EQ(run.code, 0) << run.said;
   EXPECT_EQ(run.said, "");
   const test::XrReport report = xr.report();
@@ -48,6 +51,7 @@ TEST(HeadsetDesktop, TheDemonstrationComesBefore) {
   if (!std::getenv("DISPLAY")) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64");
   const Ended run = interruptedAfter(12, "demonstration/session.palpa", "", xr);
+  EXPECT_TRUE(run.begun) << run.said;
   EXPECT_EQ(run.said.find("headset"), std::string::npos) << run.said;
   EXPECT_EQ(run.said.find("EGL"), std::string::npos) << run.said;
 }

@@ -20,6 +20,8 @@ TEST(EndNotice, AnAssessmentTellsNoResult) {
        {Outcome::success, Outcome::done, Outcome::time, Outcome::passes, Outcome::mistaken})
     EXPECT_EQ(endNotice(Role::assessed, outcome, result), silent) << training::nameOf(outcome);
   EXPECT_EQ(silent.find("found"), std::string::npos);
+  EXPECT_EQ(endNotice(Role::assessed, Outcome::voided, result), "Trial ended: void");
+  EXPECT_EQ(endNotice(Role::assessed, Outcome::aborted, result), "Trial ended: aborted");
 }
 
 }  // namespace
