@@ -36,7 +36,6 @@ TEST(Socket, NothingThereIsNotTheSameAsNobodyThere) {
   EXPECT_TRUE(ready(pair.ends[0], Wait::to_read, 0));
   EXPECT_FALSE(receiveSome(pair.ends[0], bytes, sizeof bytes));
   EXPECT_FALSE(sendSome(pair.ends[0], "abc", 3)) << "and no signal ends the program";
-  EXPECT_FALSE(sendWaiting(pair.ends[0], "abc", 3));
 }
 
 TEST(Socket, WhoTakesNothingKeepsNobodyWaiting) {
