@@ -56,10 +56,11 @@ void turnAway(const Caller& caller) {
 }
 
 bool isEmergencyStop(const std::string& said) {
-  constexpr std::string_view kBegin = "POST /api/sessions/", kEnd = "/stop HTTP/1.";
+  constexpr std::string_view kMethod = "POST ", kVersion = " HTTP/1.1";
   const std::string_view line = std::string_view(said).substr(0, said.find('\r'));
-  return line.starts_with(kBegin) && line.size() > kEnd.size() &&
-         line.substr(0, line.size() - 1).ends_with(kEnd);
+  if (!line.starts_with(kMethod) || !line.ends_with(kVersion)) return false;
+  return isStopPath(std::string(
+      line.substr(kMethod.size(), line.size() - kMethod.size() - kVersion.size())));
 }
 
 void Lobby::run(int listener) {

@@ -51,7 +51,8 @@ LiveLog& beginWith(LiveLog& log, const Hello& hello) {
 LiveSession::LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels)
     : channels_(channels),
       port_(socket, beginWith(log_, hello),
-            [this](const std::string& command) { receive(command); }) {}
+            [this](const std::string& command) { receive(command); }),
+      stop_port_(stopSocketOf(socket), [this] { stop(); }) {}
 
 void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
                        std::int64_t now_ns) {
@@ -85,10 +86,19 @@ void LiveSession::picture(scene::Image picture, std::int64_t now_ns) {
 
 void LiveSession::receive(const std::string& command) {
   try {
-    channels_.console_to_task.push(parseSteering(command));
+    const trial::UserRequest asked = parseSteering(command);
+    if (asked.command == trial::UserCommand::emergency_stop) return stop();
+    request(asked);
   } catch (const Error& e) {
     if (++refused_ <= kLoggedRefusals) log_.add(entryOf({{"kind", "refused"}, {"text", e.what()}}));
   }
 }
+
+void LiveSession::request(const trial::UserRequest& asked) {
+  const std::lock_guard lock(requests_mutex_);
+  channels_.console_to_task.push(asked);
+}
+
+void LiveSession::stop() { request({trial::UserCommand::emergency_stop, "", 0}); }
 
 }  // namespace palpa::live

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <mutex>
 #include <string>
 
 #include "apps/live/live_sink.h"
 #include "apps/live/port.h"
+#include "apps/live/stop_port.h"
 #include "apps/trial/trial_status.h"
 
 namespace palpa::live {
@@ -32,13 +34,18 @@ class LiveSession {
 
  private:
   void receive(const std::string& command);
+  void request(const trial::UserRequest& asked);
+  /// The one place where an emergency stop from outside enters the session. Any thread.
+  void stop();
 
   LiveLog log_;
   trial::Channels& channels_;
   std::string published_;  ///< the last status, without its time
   int refused_ = 0;        ///< told: a peer that sends nonsense for hours shall not fill the memory
   std::int64_t next_words_ns_ = 0, next_picture_ns_ = 0;
-  Port port_;  ///< last: its thread uses the rest
+  std::mutex requests_mutex_;  ///< of two threads only one asks at a time
+  Port port_;                  ///< after what its thread uses
+  StopPort stop_port_;
 };
 
 }  // namespace palpa::live
