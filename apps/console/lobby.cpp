@@ -13,7 +13,7 @@ constexpr std::chrono::milliseconds kSilent = 5s, kHeadWithin = 10s;
 constexpr std::chrono::milliseconds kCrowdedSilent = 250ms,
                                     kCrowdedHeadWithin = 2s;  // who says nothing makes room
 constexpr std::chrono::milliseconds kNoDescriptor = 10ms;
-constexpr int kLook_ms = 100;
+constexpr int kLobbyLook_ms = 100;
 constexpr int kCallersAtOnce = 64;
 constexpr std::size_t kLongestHead = 32u << 10, kLongestStop = 1u << 10;
 
@@ -92,7 +92,7 @@ void Lobby::comeBack(std::unique_ptr<Caller> caller) {
 void Lobby::wait(int listener) {
   std::vector<os::WatchedSocket> all{{listener}, {wake_.descriptor()}};
   for (const auto& caller : waiting_) all.push_back({caller->socket});
-  os::waitForAny(all, kLook_ms);
+  os::waitForAny(all, kLobbyLook_ms);
 }
 
 void Lobby::takeBack() {

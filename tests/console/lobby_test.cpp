@@ -21,7 +21,7 @@ constexpr char kHead[] = "GET / HTTP/1.1\r\nHost: x\r\n\r\n";
 constexpr char kStop[] = "POST /api/sessions/a1/stop HTTP/1.1\r\nContent-Length: 2\r\n\r\n{}";
 
 template <class Seen>
-bool soon(Seen seen) {
+bool comesTo(Seen seen) {
   const auto until = runtime::ServingClock::now() + 60s;
   while (runtime::ServingClock::now() < until) {
     if (seen()) return true;
@@ -65,15 +65,15 @@ class Visitor {
 };
 
 /// A lobby that runs, and who came out of it.
-struct Door {
-  Door()
+struct Entrance {
+  Entrance()
       : lobby({[this](std::unique_ptr<Caller> caller) { put(requests, std::move(caller)); },
                [this](std::unique_ptr<Caller> caller) { put(stops, std::move(caller)); },
                [this](const std::string&) { ++slow; }, [this] { ++away; }}) {
     os::neverWait(listener);
     thread = std::thread([this] { lobby.run(listener); });
   }
-  ~Door() {
+  ~Entrance() {
     lobby.end();
     thread.join();
     os::closeSocket(listener);
@@ -96,7 +96,7 @@ struct Door {
     return of.size();
   }
   std::unique_ptr<Caller> next(std::vector<std::unique_ptr<Caller>>& from) {
-    EXPECT_TRUE(soon([&] { return count(from) > 0; }));
+    EXPECT_TRUE(comesTo([&] { return count(from) > 0; }));
     const std::lock_guard lock(mutex);
     if (from.empty()) return nullptr;
     std::unique_ptr<Caller> caller = std::move(from.front());
@@ -114,13 +114,13 @@ struct Door {
 };
 
 TEST(Lobby, HandsOnAWholeHeadHoweverItComes) {
-  Door door;
-  const Visitor visitor(door.port, "127.0.0.5");
+  Entrance entrance;
+  const Visitor visitor(entrance.port, "127.0.0.5");
   for (const char c : std::string(kHead)) {
-    EXPECT_EQ(door.count(door.requests), 0u) << "before its end";
+    EXPECT_EQ(entrance.count(entrance.requests), 0u) << "before its end";
     visitor.say(std::string(1, c));
   }
-  const auto caller = door.next(door.requests);
+  const auto caller = entrance.next(entrance.requests);
   ASSERT_TRUE(caller);
   EXPECT_EQ(caller->said, kHead);
   EXPECT_EQ(caller->remote, "127.0.0.5");
@@ -131,28 +131,28 @@ TEST(Lobby, HandsOnAWholeHeadHoweverItComes) {
 }
 
 TEST(Lobby, AnswersComeBackAndTheNextRequestMayBeThereAlready) {
-  Door door;
-  const Visitor visitor(door.port, "127.0.0.1");
+  Entrance entrance;
+  const Visitor visitor(entrance.port, "127.0.0.1");
   visitor.say(kHead);
-  auto caller = door.next(door.requests);
+  auto caller = entrance.next(entrance.requests);
   ASSERT_TRUE(caller);
   caller->said = "POST /next";  // came with the first
-  door.lobby.comeBack(std::move(caller));
+  entrance.lobby.comeBack(std::move(caller));
   visitor.say(" HTTP/1.1\r\n\r\n");
-  caller = door.next(door.requests);
+  caller = entrance.next(entrance.requests);
   ASSERT_TRUE(caller);
   EXPECT_EQ(caller->said, "POST /next HTTP/1.1\r\n\r\n");
 }
 
 TEST(Lobby, AStopGoesItsOwnWayWhenAllOfItIsHere) {
-  Door door;
-  const Visitor visitor(door.port, "127.0.0.1");
+  Entrance entrance;
+  const Visitor visitor(entrance.port, "127.0.0.1");
   const std::string stop = kStop;
   visitor.say(stop.substr(0, stop.size() - 1));
   runtime::rest(100ms);
-  EXPECT_EQ(door.count(door.stops) + door.count(door.requests), 0u) << "a byte of it is missing";
+  EXPECT_EQ(entrance.count(entrance.stops) + entrance.count(entrance.requests), 0u) << "a byte of it is missing";
   visitor.say(stop.substr(stop.size() - 1));
-  const auto caller = door.next(door.stops);
+  const auto caller = entrance.next(entrance.stops);
   ASSERT_TRUE(caller);
   EXPECT_EQ(caller->said, stop);
 }
@@ -165,73 +165,73 @@ TEST(Lobby, WhatOnlyLooksLikeAStopIsARequest) {
         "POST /api/sessions/a1/stop HTTP/1.1\r\nContent-Length: 2\r\nContent-Length: 2\r\n\r\n{}",
         "POST /api/sessions/a1/stopped HTTP/1.1\r\n\r\n", "POST /stop HTTP/1.1\r\n\r\n",
         "POST /api/sessions/a1/command HTTP/1.1\r\nX: /stop HTTP/1.1\r\n\r\n"}) {
-    Door door;
-    const Visitor visitor(door.port, "127.0.0.1");
+    Entrance entrance;
+    const Visitor visitor(entrance.port, "127.0.0.1");
     visitor.say(said);
-    EXPECT_TRUE(door.next(door.requests)) << said;
-    EXPECT_EQ(door.count(door.stops), 0u) << said;
+    EXPECT_TRUE(entrance.next(entrance.requests)) << said;
+    EXPECT_EQ(entrance.count(entrance.stops), 0u) << said;
   }
 }
 
 /// Silent ones of one address take no place from another, nor from who speaks at their own.
 TEST(Lobby, WhoIsSilentLongestMakesRoomWithinItsAddress) {
-  Door door;
-  const Visitor other(door.port, "127.0.0.2");
-  ASSERT_TRUE(soon([&] { return !os::ready(door.listener, os::Wait::to_read, 0); }));
+  Entrance entrance;
+  const Visitor other(entrance.port, "127.0.0.2");
+  ASSERT_TRUE(comesTo([&] { return !os::ready(entrance.listener, os::Wait::to_read, 0); }));
   std::vector<std::unique_ptr<Visitor>> silent;
   for (int i = 0; i < 60; ++i)
-    silent.push_back(std::make_unique<Visitor>(door.port, "127.0.0.1"));
-  ASSERT_TRUE(soon([&] { return door.away >= 60 - static_cast<int>(Lobby::kMostOfOne); }));
+    silent.push_back(std::make_unique<Visitor>(entrance.port, "127.0.0.1"));
+  ASSERT_TRUE(comesTo([&] { return entrance.away >= 60 - static_cast<int>(Lobby::kMostOfOne); }));
   EXPECT_EQ(silent.front()->lastWords().rfind("HTTP/1.1 503 ", 0), 0u) << "the first goes first";
-  const Visitor speaks(door.port, "127.0.0.1");
+  const Visitor speaks(entrance.port, "127.0.0.1");
   speaks.say(kHead);
-  const auto own = door.next(door.requests);
+  const auto own = entrance.next(entrance.requests);
   ASSERT_TRUE(own);
   EXPECT_EQ(own->remote, "127.0.0.1");
   other.say(kHead);
-  const auto first = door.next(door.requests);
+  const auto first = entrance.next(entrance.requests);
   ASSERT_TRUE(first) << "who came before them all has gone";
   EXPECT_EQ(first->remote, "127.0.0.2");
-  const Visitor stops(door.port, "127.0.0.1");
+  const Visitor stops(entrance.port, "127.0.0.1");
   stops.say(kStop);
-  EXPECT_TRUE(door.next(door.stops));
+  EXPECT_TRUE(entrance.next(entrance.stops));
 }
 
 TEST(Lobby, ManyAddressesTogetherHaveABoundToo) {
-  Door door;
+  Entrance entrance;
   std::vector<std::unique_ptr<Visitor>> silent;
   for (int i = 0; i < 150; ++i)
     silent.push_back(std::make_unique<Visitor>(
-        door.port, ("127.0.1." + std::to_string(1 + i % 10)).c_str()));
-  ASSERT_TRUE(soon([&] { return door.away >= 150 - static_cast<int>(Lobby::kMost); }));
-  const Visitor stranger(door.port, "127.0.0.9");
+        entrance.port, ("127.0.1." + std::to_string(1 + i % 10)).c_str()));
+  ASSERT_TRUE(comesTo([&] { return entrance.away >= 150 - static_cast<int>(Lobby::kMost); }));
+  const Visitor stranger(entrance.port, "127.0.0.9");
   stranger.say(kHead);
-  EXPECT_TRUE(door.next(door.requests));
+  EXPECT_TRUE(entrance.next(entrance.requests));
 }
 
 TEST(Lobby, WhoSaysNothingOrNeverEndsIsLetGo) {
-  Door door;
-  const Visitor silent(door.port, "127.0.0.1"), slow(door.port, "127.0.0.2");
+  Entrance entrance;
+  const Visitor silent(entrance.port, "127.0.0.1"), slow(entrance.port, "127.0.0.2");
   slow.say("GET / HTTP/1.1\r\nX-A: ");
   EXPECT_EQ(silent.lastWords(), "");
-  EXPECT_TRUE(soon([&] {
+  EXPECT_TRUE(comesTo([&] {
     slow.say("a");
     return slow.isEnded();
   }));
-  EXPECT_EQ(door.slow, 1) << "only a request that was begun is one";
-  EXPECT_EQ(door.count(door.requests), 0u);
+  EXPECT_EQ(entrance.slow, 1) << "only a request that was begun is one";
+  EXPECT_EQ(entrance.count(entrance.requests), 0u);
 }
 
 TEST(Lobby, AHeadWithoutEndIsHandedOnToBeRefused) {
-  Door door;
-  const Visitor visitor(door.port, "127.0.0.1");
+  Entrance entrance;
+  const Visitor visitor(entrance.port, "127.0.0.1");
   std::thread talks([&] {
     for (int i = 0; i < 64; ++i) {
       visitor.say(std::string(1024, 'a'));
       runtime::rest(1ms);
     }
   });
-  const auto caller = door.next(door.requests);
+  const auto caller = entrance.next(entrance.requests);
   talks.join();
   ASSERT_TRUE(caller);
   EXPECT_LT(caller->said.size(), 64u << 10);
