@@ -45,7 +45,7 @@ Read firstOf(std::string_view text) {
 /// Of those that a terminal or a screen would obey rather than show.
 bool isObeyed(char32_t c) {
   constexpr std::pair<char32_t, char32_t> kRanges[] = {
-      {0x00, 0x1f},      {0x7f, 0x9f},      {0x61c, 0x61c},    {0x200e, 0x200f},
+      {0x00, 0x1f},     {0x7f, 0x9f},     {0x61c, 0x61c},   {0x200e, 0x200f},
       {0x2028, 0x202e}, {0x2060, 0x206f}, {0xfeff, 0xfeff}, {0xfff9, 0xfffb}};
   return std::any_of(std::begin(kRanges), std::end(kRanges),
                      [c](const auto& range) { return c >= range.first && c <= range.second; });

@@ -57,7 +57,8 @@ std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
   return hosts;
 }
 
-/// The server's own thread, ended in any case: an error on the way, as of a full disk, is to be said.
+/// The server's own thread, ended in any case: an error on the way, as of a full disk, is to be
+/// said.
 class Serving {
  public:
   explicit Serving(WebServer& server) : server_(server), thread_([&server] { server.serve(); }) {}

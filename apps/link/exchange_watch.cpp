@@ -15,17 +15,6 @@ void WatchedConnection::use(int socket) {
   const std::lock_guard lock(mutex_);
   drop();
   shared_ = os::sharedSocket(socket);
-  before_ = 0;
-}
-
-void WatchedConnection::beginExchange() {
-  const std::lock_guard lock(mutex_);
-  before_ = shared_ < 0 ? 0 : os::bytesReceived(shared_);
-}
-
-std::uint64_t WatchedConnection::received() {
-  const std::lock_guard lock(mutex_);
-  return shared_ < 0 ? 0 : os::bytesReceived(shared_) - before_;
 }
 
 void WatchedConnection::cut() {
@@ -38,14 +27,12 @@ void WatchedConnection::drop() {
   shared_ = -1;
 }
 
-ExchangeWatch::ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole,
-                             std::uint64_t most)
-    : connection_(connection), until_(runtime::ServingClock::now() + whole), most_(most) {
-  connection_.beginExchange();
+ExchangeWatch::ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole)
+    : connection_(connection), until_(runtime::ServingClock::now() + whole) {
   thread_ = std::thread([this] { watch(); });
 }
 
-ExchangeWatch::Cut ExchangeWatch::end() {
+bool ExchangeWatch::end() {
   {
     const std::lock_guard lock(mutex_);
     over_ = true;
@@ -59,9 +46,8 @@ ExchangeWatch::Cut ExchangeWatch::end() {
 void ExchangeWatch::watch() {
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, kWatchEvery, [this] { return over_; })) {
-    if (cut_ == Cut::no && connection_.received() > most_) cut_ = Cut::too_much;
-    if (cut_ == Cut::no && runtime::ServingClock::now() > until_) cut_ = Cut::too_slow;
-    if (cut_ != Cut::no) connection_.cut();
+    cut_ = runtime::ServingClock::now() > until_;
+    if (cut_) connection_.cut();
   }
 }
 

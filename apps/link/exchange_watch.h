@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <mutex>
 #include <thread>
 
@@ -19,40 +18,33 @@ class WatchedConnection {
   WatchedConnection(const WatchedConnection&) = delete;
   WatchedConnection& operator=(const WatchedConnection&) = delete;
 
-  void use(int socket);          ///< the client has opened this one
-  void beginExchange();          ///< what comes from here on is counted
-  std::uint64_t received();      ///< bytes since
-  void cut();                    ///< whoever waits for it sees its end
+  void use(int socket);  ///< the client has opened this one
+  void cut();            ///< whoever waits for it sees its end
 
  private:
   void drop();
   std::mutex mutex_;
   int shared_ = -1;
-  std::uint64_t before_ = 0;
 };
 
-/// One request and its answer, watched from a thread beside it, and cut where it lasts too long or
-/// brings too much, wherever in the answer that is: the library bounds a pause between two bytes,
-/// and neither of these.
+/// One request and its answer, from connecting on, watched from a thread beside it and cut where it
+/// lasts too long, whatever it is at: the library bounds a pause between two bytes, not the whole.
 class ExchangeWatch {
  public:
-  enum class Cut { no, too_slow, too_much };
-  ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole, std::uint64_t most);
+  ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole);
   ~ExchangeWatch() { end(); }
   ExchangeWatch(const ExchangeWatch&) = delete;
   ExchangeWatch& operator=(const ExchangeWatch&) = delete;
-  Cut end();
+  bool end();  ///< true: it was cut
 
  private:
   void watch();
 
   WatchedConnection& connection_;
   const runtime::ServingClock::time_point until_;
-  const std::uint64_t most_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool over_ = false;
-  Cut cut_ = Cut::no;
+  bool over_ = false, cut_ = false;
   std::thread thread_;
 };
 
