@@ -138,8 +138,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   std::optional<live::LiveSink> told;
   if (!options_.live.empty()) {
     live_ = std::make_unique<live::LiveSession>(
-        options_.live, helloOf(options_, world_.station, info.uuid), channels_,
-        bus_.stop);
+        options_.live, helloOf(options_, world_.station, info.uuid), channels_, bus_.stop);
     told.emplace(writer, live_->log(), world_.near, toneOfEvent);
   }
   runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer,

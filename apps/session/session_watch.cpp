@@ -20,12 +20,12 @@ constexpr int kKeyWait_ms = 50;
 
 std::string partInWords(const std::string& activity) {
   static const std::map<std::string, std::string> kWords{
-      {"scene", "the picture"},       {"camera", "the camera"},
-      {"recorder", "the evidence"},   {"falcon", "the haptic device"},
-      {"haptic", "the haptic loop"},  {"igtl", "OpenIGTLink"},
-      {"tracker", "the tracker"},     {"task", "the task"},
-      {"geometry", "the geometry"},   {"stop key", "the space bar's thread"},
-      {"progress", "the terminal"},   {"force sensor", "the force sensor"}};
+      {"scene", "the picture"},      {"camera", "the camera"},
+      {"recorder", "the evidence"},  {"falcon", "the haptic device"},
+      {"haptic", "the haptic loop"}, {"igtl", "OpenIGTLink"},
+      {"tracker", "the tracker"},    {"task", "the task"},
+      {"geometry", "the geometry"},  {"stop key", "the space bar's thread"},
+      {"progress", "the terminal"},  {"force sensor", "the force sensor"}};
   const auto found = kWords.find(activity);
   return found == kWords.end() ? activity : found->second;
 }
@@ -47,8 +47,8 @@ std::int64_t SessionWatch::endSession(const char* why) {
 void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   next_look_ns_ = now_ns + kStuckPeriod;
   const runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
-  const auto tell = [this](const runtime::Executive::Stuck& of, const runtime::Executive::Stuck& not_in,
-                           const char* what) {
+  const auto tell = [this](const runtime::Executive::Stuck& of,
+                           const runtime::Executive::Stuck& not_in, const char* what) {
     for (const std::string& name : of)
       if (std::find(not_in.begin(), not_in.end(), name) == not_in.end())
         channels_.signals_to_task.push({trial::UserCommand::remark, partInWords(name) + what});

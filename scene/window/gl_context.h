@@ -30,8 +30,8 @@ class GlContextProvider {
   virtual NativeContext native() = 0;        ///< and makes it current
   /// Of a window at an X server, which hears its space bar past whoever draws; null: none.
   virtual std::unique_ptr<StopKey> stopKey() { return nullptr; }
-  void makeCurrent();                        ///< on the calling thread
-  void neverWait();                          ///< frames do not wait for the monitor's
+  void makeCurrent();  ///< on the calling thread
+  void neverWait();    ///< frames do not wait for the monitor's
 };
 std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int height,
                                                  const char* title);

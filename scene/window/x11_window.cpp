@@ -28,8 +28,9 @@ bool tellLost() {
 }
 
 void endWithoutWindow() {
-  std::fprintf(stderr, "palpa: the window is gone: the X server ended, or another program closed "
-                       "it. Start again on a display that stays\n");
+  std::fprintf(stderr,
+               "palpa: the window is gone: the X server ended, or another program closed "
+               "it. Start again on a display that stays\n");
   std::_Exit(EXIT_FAILURE);
 }
 

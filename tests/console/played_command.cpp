@@ -50,8 +50,8 @@ int playSession(const std::vector<std::string>& arguments) {
                             channels, stop);
   std::uint32_t presses = 0;
   const auto hear = [&](trial::UserCommand command) {
-    session.log().add("{\"kind\":\"event\",\"heard\":" +
-                      std::to_string(static_cast<int>(command)) + "}");
+    session.log().add("{\"kind\":\"event\",\"heard\":" + std::to_string(static_cast<int>(command)) +
+                      "}");
   };
   const auto until = runtime::ServingClock::now() + kLongestPlay;
   for (int number = 1; runtime::ServingClock::now() < until; ++number) {
