@@ -98,8 +98,6 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
   }
   trial.assessment.augmented = plan().augmented;
   trial.assessment.doses = doses_.doses();
-  trial.samples = std::move(samples_);
-  samples_.clear();
   shown_.flows = Tissue::air;
   shown_.asked = false;
   const bool success = outcome == Outcome::success;
