@@ -48,8 +48,10 @@ LiveLog& beginWith(LiveLog& log, const Hello& hello) {
 
 }  // namespace
 
-LiveSession::LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels)
+LiveSession::LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels,
+                         runtime::StopSwitch& stop)
     : channels_(channels),
+      stop_(stop),
       port_(socket, beginWith(log_, hello),
             [this](const std::string& command) { receive(command); }) {}
 
@@ -85,7 +87,9 @@ void LiveSession::picture(scene::Image picture, std::int64_t now_ns) {
 
 void LiveSession::receive(const std::string& command) {
   try {
-    channels_.console_to_task.push(parseSteering(command));
+    const trial::UserRequest request = parseSteering(command);
+    if (request.command == trial::UserCommand::emergency_stop) return stop_.press();
+    channels_.console_to_task.push(request);
   } catch (const Error& e) {
     if (++refused_ <= kLoggedRefusals) log_.add(entryOf({{"kind", "refused"}, {"text", e.what()}}));
   }
