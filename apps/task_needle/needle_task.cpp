@@ -39,8 +39,8 @@ NeedleTask::NeedleTask(const NeedleTaskSetup& setup, runtime::Bus& bus, TaskChan
       doses_(setup.augmentations, setup.settings.augmentations.subtaskNames()) {
   completed_.reserve(setup_.plan.size());
   // Once, so that a later and longer trial needs no more.
-  samples_.reserve(static_cast<std::size_t>(kTicksASecond *
-                                            std::min(setup.settings.time_limit_s, kRoom_s)));
+  samples_.reserve(
+      static_cast<std::size_t>(kTicksASecond * std::min(setup.settings.time_limit_s, kRoom_s)));
 }
 
 /// What a recorded hand said comes as it came.

@@ -33,7 +33,7 @@ double heldPerTrial(const Run& run) {
 }
 
 double middleOf(std::vector<std::int64_t>::const_iterator from,
-              std::vector<std::int64_t>::const_iterator to) {
+                std::vector<std::int64_t>::const_iterator to) {
   return quantile(std::vector<double>(from, to), 0.5);
 }
 
@@ -50,7 +50,7 @@ TEST(Memory, OfANeedleDoesNotGrowWithItsTrials) {
   const SessionOptions options = sessionOf(test::counted(6, 30));
   Quick<NeedleWorld> world(options);
   const double held = heldPerTrial([&] {
-    LiveBytes::noteLows();
+    LiveBytes::note();
     return runNeedleSession(options, world, freshPlace("needle"));
   });
   const double grown = growthPerTrial(options.trials);

@@ -19,24 +19,30 @@ class LiveBytes {
     const std::lock_guard lock(mutex());
     return live();
   }
-  /// Begins to note the lows: of every `kStep` allocations the fewest bytes that lived.
-  static void noteLows() {
+  /// Begins to note the peak, and the lows: of every `kStep` allocations the fewest bytes that
+  /// lived.
+  static void note() {
     const std::lock_guard lock(mutex());
     noted() = 0;
     allocations() = 0;
-    low() = live();
+    low() = high() = live();
+  }
+  static std::int64_t peak() {
+    const std::lock_guard lock(mutex());
+    return high();
   }
   static std::vector<std::int64_t> lows() {
-    const std::size_t count = [] {
-      const std::lock_guard lock(mutex());
-      return noted();
-    }();
-    return {kept(), kept() + count};
+    std::vector<std::int64_t> all(kMost);  // before the lock, which every allocation takes
+    const std::lock_guard lock(mutex());
+    std::copy_n(kept(), noted(), all.begin());
+    all.resize(noted());
+    return all;
   }
 
   static void taken(void* p) {
     const std::lock_guard lock(mutex());
     live() += static_cast<std::int64_t>(::malloc_usable_size(p));
+    high() = std::max(high(), live());
     if (++allocations() % kStep != 0 || noted() == kMost) return;
     kept()[noted()++] = low();
     low() = live();
@@ -59,6 +65,10 @@ class LiveBytes {
     return bytes;
   }
   static std::int64_t& low() {
+    static std::int64_t bytes = 0;
+    return bytes;
+  }
+  static std::int64_t& high() {
     static std::int64_t bytes = 0;
     return bytes;
   }
