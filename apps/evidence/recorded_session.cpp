@@ -52,12 +52,13 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
   trials_ = reader_->trials();
 }
 
-void RecordedSession::eachTrial(
-    const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const {
-  assess::TrialSampler sampler(X_DA_.inverse(), reader_->info().tick_config.X_ET);
-  Samples samples;
+void eachNeedleTrial(
+    const record::SessionReader& reader, const Pose& X_DA,
+    const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
+  assess::TrialSampler sampler(X_DA.inverse(), reader.info().tick_config.X_ET);
+  NeedleSamples samples;
   record::walkTrials(
-      *reader_, trials_,
+      reader, reader.trials(),
       {.begin =
            [&](const record::RecordedTrial& trial) {
              samples.clear();

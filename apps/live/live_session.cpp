@@ -77,7 +77,7 @@ void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
   if (now == published_) return;
   published_ = std::move(now);
   words["t_s"] = secondsOf(now_ns);
-  log_.addCurve(entryOf(words));
+  log_.addPassing(entryOf(words), static_cast<std::uint32_t>(status.trial));
 }
 
 void LiveSession::picture(scene::Image picture, std::int64_t now_ns) {

@@ -189,7 +189,6 @@ trial::TrialTask::Conclusion PalpationTask::conclude(Outcome outcome, const std:
       facts, setup_.settings.scoring.rules, setup_.settings.scoring.standard,
       lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
   trial.assessment.doses = doses_.doses();
-  trial.samples = listener_.samples();
   if (outcome == Outcome::done || outcome == Outcome::time)
     guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
   showLumps(&trial.assessment);
