@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 
 #include "anatomy/base/error.h"
 #include "tests/headset/worn.h"
@@ -28,14 +29,17 @@ HeadsetViewSetup impatient() {
 /// Holds up a function of the runtime until it is released.
 class Hang {
  public:
-  std::string plan() const { return ";hang=" + file().string(); }
-  void at(const std::string& function) const { std::ofstream(file()) << function << '\n'; }
-  void release() const { std::filesystem::remove(file()); }
-  bool reached() const { return std::filesystem::exists(file().string() + ".reached"); }
+  explicit Hang(const std::filesystem::path& folder) : file_(folder / "hang.txt") {
+    release();
+    std::filesystem::remove(file_.string() + ".reached");
+  }
+  std::string plan() const { return ";hang=" + file_.string(); }
+  void at(const std::string& function) const { std::ofstream(file_) << function << '\n'; }
+  void release() const { std::filesystem::remove(file_); }
+  bool reached() const { return std::filesystem::exists(file_.string() + ".reached"); }
 
  private:
-  std::filesystem::path file() const { return folder_ / "hang.txt"; }
-  test::ScratchFolder folder_{"hang"};
+  std::filesystem::path file_;
 };
 
 /// One frame, and a pulse in the hand; whether it was shown.
@@ -78,7 +82,8 @@ class HungCall : public testing::TestWithParam<const char*> {};
 TEST_P(HungCall, HoldsNobodyUpAndComesBack) {
   const std::string function = GetParam();
   const bool of_change = function == "xrEndSession" || function == "xrBeginSession";
-  const Hang hang;
+  const test::ScratchFolder folder("hang");
+  const Hang hang(folder.path());
   Worn worn("eyes=64x64,64x64;rate=500" + hang.plan() + (of_change ? ";fault=taken_off@12" : ""),
             0.03, impatient());
   ASSERT_TRUE(showsMore(*worn.view));
@@ -128,75 +133,86 @@ TEST(HungRuntime, WhoseProcessIsStoppedHoldsNobodyUpAndComesBack) {
   expectClean(worn.over(), "stopped");
 }
 
-/// What does not end is ended, as a failure.
-void endsInTime() { alarm(60); }
+constexpr const char* kFolderOfParent = "PALPA_TEST_HUNG";
 
-[[noreturn]] void end(bool good) { std::exit(good ? 0 : 1); }
+/// In processes of their own: the loader gives no second instance where one is left behind.
+class HungDeathTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    if (std::getenv(kFolderOfParent)) return;
+    folder_.emplace("hung");
+    setenv(kFolderOfParent, folder_->path().c_str(), 1);
+  }
+  void TearDown() override { unsetenv(kFolderOfParent); }
 
-/// Ends a program whose runtime hangs; and when it ends, that runtime waits for itself for ever.
-[[noreturn]] void closeHung(const std::string& function) {
-  endsInTime();
-  const Hang hang;
+ private:
+  std::optional<test::ScratchFolder> folder_;
+};
+
+/// Ends the program, whose runtime waits for ever for itself then if it is asked. What does not
+/// end is killed.
+template <class Good>
+[[noreturn]] void endAfter(Good good) {
+  alarm(60);
+  const Hang hang(std::getenv(kFolderOfParent));
+  const bool well = good(hang);
+  setenv("PALPA_TEST_XR", hang.plan().c_str(), 1);
+  std::exit(well ? 0 : 1);
+}
+
+bool closesHung(const std::string& function, const Hang& hang) {
   HeadsetViewSetup setup = impatient();
   setup.patience.closing = std::chrono::milliseconds(100);
   Worn worn("eyes=64x64,64x64;rate=500" + hang.plan(), 0.03, setup);
-  bool good = showsMore(*worn.view);
+  const bool shown = showsMore(*worn.view);
   hang.at(function + " exit");
   for (int i = 0; i < 5; ++i) oneFrame(*worn.view);
   worn.view.reset();
-  good &= hang.reached();
-  end(good);
+  return shown && hang.reached();
 }
 
-[[noreturn]] void openHung(const std::string& function) {
-  endsInTime();
-  const Hang hang;
+bool opensHung(const std::string& function, const Hang& hang) {
   hang.at(function + " exit");
   HeadsetViewSetup setup = impatient();
-  setup.patience.opening = std::chrono::milliseconds(1500);
+  setup.patience.opening = std::chrono::seconds(1);
   try {
     const Worn worn("eyes=64x64,64x64" + hang.plan(), 0.03, setup);
   } catch (const Error& error) {
-    end(hang.reached() && std::string(error.what()).find("does not answer") != std::string::npos);
+    return hang.reached() && std::string(error.what()).find("does not answer") != std::string::npos;
   }
-  end(false);
+  return false;
 }
 
-/// Each in a process of its own: the loader gives no second instance where one is left behind.
-class HungDeathTest : public testing::Test {
- protected:
-  void SetUp() override { testing::FLAGS_gtest_death_test_style = "threadsafe"; }
-};
-
 TEST_F(HungDeathTest, ASessionAndItsProgramEndWhateverHangs) {
-  for (const char* function :
+  for (const std::string function :
        {"xrPollEvent", "xrWaitFrame", "xrReleaseSwapchainImage", "xrRequestExitSession",
         "xrEndSession", "xrDestroySpace", "xrDestroySwapchain", "xrDestroyActionSet",
         "xrDestroySession", "xrDestroyInstance"})
-    EXPECT_EXIT(closeHung(function), testing::ExitedWithCode(0), "") << function;
+    EXPECT_EXIT(endAfter([&](const Hang& hang) { return closesHung(function, hang); }),
+                testing::ExitedWithCode(0), "")
+        << function;
 }
 
 TEST_F(HungDeathTest, ARuntimeThatHangsAtTheStartIsRefused) {
-  for (const char* function :
-       {"xrCreateInstance", "xrGetSystem", "xrCreateSession", "xrCreateSwapchain",
-        "xrAttachSessionActionSets"})
-    EXPECT_EXIT(openHung(function), testing::ExitedWithCode(0), "") << function;
+  for (const std::string function : {"xrCreateInstance", "xrGetSystem", "xrCreateSession",
+                                     "xrCreateSwapchain", "xrAttachSessionActionSets"})
+    EXPECT_EXIT(endAfter([&](const Hang& hang) { return opensHung(function, hang); }),
+                testing::ExitedWithCode(0), "")
+        << function;
 }
 
 /// With the patience of a session: ten frames a second go on meanwhile, and after two seconds the
-/// headset is silent.
-[[noreturn]] void hangWithTheUsualPatience() {
-  endsInTime();
+/// headset is silent. What it holds cannot be given back.
+bool isSilentByItself(const Hang&) {
   Worn worn("eyes=64x64,64x64;fault=hung@6");
-  bool good = worn.show(100) == 6;
-  good &= worn.view->trouble().find("does not answer") != std::string::npos;
-  good &= !worn.view->wait(true);
-  worn.view.reset();  // what it holds cannot be given back
-  end(good);
+  return worn.show(100) == 6 &&
+         worn.view->trouble().find("does not answer") != std::string::npos &&
+         !worn.view->wait(true);
 }
 
 TEST_F(HungDeathTest, OneThatHangsIsGivenUp) {
-  EXPECT_EXIT(hangWithTheUsualPatience(), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(endAfter(isSilentByItself), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
