@@ -72,7 +72,7 @@ class HeadsetView final : public scene::HeadDisplay {
   HeadsetViewSetup setup_;
   std::shared_ptr<Drawing> drawing_;
   std::unique_ptr<ar::Headset> headset_;  // goes before what it draws with
-  int width_ = 0, height_ = 0;  ///< of one eye's half of the view
+  int width_ = 0, height_ = 0;            ///< of one eye's half of the view
   ar::HeadsetFrame frame_;
   bool placed_ = false, asked_ = false;  ///< asked_: to be placed anew, as soon as that may be
   std::function<void(const HeldController&)> held_;

@@ -196,9 +196,8 @@ void XrFrames::stayInPlace(std::array<XrView, 2>* views) const {
   const Vec3 middle = ever_located_
                           ? Vec3(0.5 * (before[0].translation() + before[1].translation()))
                           : Vec3(Vec3::Zero());
-  const double half = ever_located_
-                          ? 0.5 * (before[1].translation() - before[0].translation()).norm()
-                          : kHalfApart;
+  const double half =
+      ever_located_ ? 0.5 * (before[1].translation() - before[0].translation()).norm() : kHalfApart;
   for (std::size_t i = 0; i < 2; ++i) {
     (*views)[i].pose.position = {0, 0, 0};
     const Vec3 p =

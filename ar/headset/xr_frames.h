@@ -31,8 +31,8 @@ class XrFrames {
   const std::string& name() const { return runtime_.name; }
   Blend blend() const { return blendOf(runtime_.blend); }
   const HeadsetFrame& frame() const { return frame_; }
-  bool ready() const { return begun_; }           ///< a frame has begun and waits for its end
-  bool canDraw() const;                           ///< into both pictures
+  bool ready() const { return begun_; }  ///< a frame has begun and waits for its end
+  bool canDraw() const;                  ///< into both pictures
   EyeTexture picture(std::size_t eye) const { return pictures_[eye]->picture(); }
 
  private:

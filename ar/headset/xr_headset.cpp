@@ -11,7 +11,8 @@ namespace palpa::ar {
 namespace {
 
 constexpr const char* kSilence = "the headset's runtime does not answer";
-constexpr const char* kNoContext = "the graphics driver does not let the headset's pictures be drawn";
+constexpr const char* kNoContext =
+    "the graphics driver does not let the headset's pictures be drawn";
 
 /// What the runtime's thread works with while it is busy, and its user while it is not.
 struct XrShared {

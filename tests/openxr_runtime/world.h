@@ -69,8 +69,8 @@ void addInstanceFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 void addSessionFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 void addInputFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 
-#define PALPA_XR(function)                       \
-  Gated<&(function)>::name = "xr" #function;     \
+#define PALPA_XR(function)                   \
+  Gated<&(function)>::name = "xr" #function; \
   all->emplace("xr" #function, reinterpret_cast<PFN_xrVoidFunction>(&Gated<&(function)>::call))
 
 /// Lists as OpenXR hands them over: asked for their length first.
