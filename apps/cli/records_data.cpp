@@ -150,8 +150,10 @@ void exportRecords(const RecordsOptions& o) {
   People people = chosen(store, o);
   if (o.research) keepAgreed(people, &record::Trainee::research_utc, "use in studies");
   const link::Dataset data = link::datasetOf(store, people);
-  const std::filesystem::path folder = session::makeOutputFolder(o.out, "records");
+  session::OutputFolder output(o.out, "records");
+  const std::filesystem::path& folder = output.path();
   const auto written = link::writeTables(link::tablesOf(data, o.paths), formatOf(o.format), folder);
+  output.keep();
   const auto simulated = std::count_if(data.sessions.begin(), data.sessions.end(),
                                        [](const record::StoredSession& s) { return s.simulated; });
   std::printf("%s, %s (%lld simulated), %s\n", counted(people.size(), "trainee").c_str(),

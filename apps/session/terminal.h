@@ -43,8 +43,8 @@ class WorkProgress {
   runtime::SteadyClock clock_;
 };
 
-/// Ctrl-C and SIGTERM close a session as Escape does: the trial is ended, devices get zero force,
-/// files are written.
+/// Ctrl-C, SIGTERM and a terminal that is closed end a session as Escape does: the trial is ended,
+/// devices get zero force, files are written.
 class Interrupt final : public runtime::Activity {
  public:
   explicit Interrupt(trial::Channels& channels) : channels_(channels) {}

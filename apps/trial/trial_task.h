@@ -95,6 +95,7 @@ class TrialTask : public runtime::Activity {
   std::int64_t trip_ns_ = 0,
                warm_ns_ = -1;  ///< of the last trip, of the last tick with warm drives
   std::int64_t since_ns_ = 0;  ///< the current state began
+  std::int64_t start_ns_ = 0;  ///< of the trial
   bool quit_ = false;
 };
 
