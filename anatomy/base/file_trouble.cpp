@@ -23,6 +23,7 @@ const std::map<int, FileTrouble>& troubles() {
       {EMFILE,
        {"the program has too many files open", "Raise the limit: ulimit -n 1024, and try again"}},
       {ENFILE, {"the computer has too many files open", "Close other programs, and try again"}},
+      {EAGAIN, {"too many processes run already", "Close other programs, and try again"}},
       {ENOMEM, {"there is not enough memory", "Close other programs, and try again"}},
       {ENAMETOOLONG, {"the name is too long", "Give a shorter one"}},
       {ELOOP, {"a link stands in the way", "Remove the link, or choose another place"}},

@@ -15,7 +15,7 @@ void requireAddress(const std::string& address);
 /// What libpq takes from the environment where an address leaves it out: PGHOST, PGHOSTADDR (it
 /// counts instead of any host), PGSERVICE.
 struct ServerDefaults {
-  std::string host, number, service;
+  std::string host = {}, number = {}, service = {};
 };
 ServerDefaults serverDefaults();
 
