@@ -153,9 +153,8 @@ EvidenceRecords recordsOf(const std::filesystem::path& evidence) {
 }
 
 std::string absoluteRecords(const std::string& url) {
-  return record::isServer(url) || url.find("://") != std::string::npos
-             ? url
-             : std::filesystem::absolute(url).lexically_normal().string();
+  record::requireAddress(url);
+  return record::isServer(url) ? url : std::filesystem::absolute(url).lexically_normal().string();
 }
 
 EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const std::string& url,
