@@ -1,6 +1,7 @@
 #include "anatomy/base/file_schema.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <regex>
@@ -138,16 +139,23 @@ struct Place {
   }
 };
 
-[[noreturn]] void refuseField(const JsonFile& file, const Place& place, const std::string& key,
-                              const KnownFields& known) {
-  std::vector<std::string> names = known.names();
-  const std::string all = listed(names);
+/// What may have been meant in an object by a field that is unknown: best what it has not yet.
+std::string proposalFor(const std::string& key, const json& object, const KnownFields& known) {
+  std::vector<std::string> names = known.names(), missing;
   for (const char* remark : {"about", "source"})
     if (known.knows(remark)) names.emplace_back(remark);
-  const std::string proposal = didYouMean(key, names);
+  std::copy_if(names.begin(), names.end(), std::back_inserter(missing),
+               [&](const std::string& name) { return !object.contains(name); });
+  const std::string best = didYouMean(key, missing);
+  return best.empty() ? didYouMean(key, names) : best;
+}
+
+[[noreturn]] void refuseField(const JsonFile& file, const Place& place, const std::string& key,
+                              const std::string& proposal, const KnownFields& known) {
   JsonFile(json(), place.name, file.remedy())
-      .refuse(place.field(key).path,
-              "is unknown" + (proposal.empty() ? "; known here: " + all : proposal));
+      .refuse(
+          place.field(key).path,
+          "is unknown" + (proposal.empty() ? "; known here: " + listed(known.names()) : proposal));
 }
 
 void walk(const JsonFile& file, const json& value, const Parts& parts, const Place& place) {
@@ -160,7 +168,8 @@ void walk(const JsonFile& file, const json& value, const Parts& parts, const Pla
   }
   const KnownFields known(parts);
   for (const auto& [key, inner] : value.items()) {
-    if (known.closed() && !known.knows(key)) refuseField(file, place, key, known);
+    if (known.closed() && !known.knows(key))
+      refuseField(file, place, key, proposalFor(key, value, known), known);
     if (inner.is_structured()) walk(file, inner, known.of(key), place.field(key));
   }
 }
