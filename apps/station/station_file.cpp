@@ -2,6 +2,7 @@
 
 #include "anatomy/base/enum_names.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/units.h"
 #include "anatomy/geometry/pose.h"
 #include "haptics/safety/passivity.h"
@@ -128,7 +129,7 @@ void readLimits(const JsonFile& file, Station& s) {
 
 Station readStation(const std::filesystem::path& path) {
   JsonFile file(path);
-  file.needVersion(kStationVersion);
+  needKind(file, "station", kStationVersion);
   Station s;
   s.file = file;
   s.id = file.text("id");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
 #include "anatomy/base/sha256.h"
@@ -226,7 +227,7 @@ void showAlike(std::vector<StudyCondition>* conditions) {
 
 Protocol readProtocol(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
+  needKind(file, "protocol", 1);
   Protocol p;
   p.file = path;
   p.sha256 = sha256OfFile(path);

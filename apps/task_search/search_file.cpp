@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "apps/station/task_sections.h"
 #include "apps/training/engine.h"
 
@@ -88,7 +89,10 @@ SearchSettings readSearch(const JsonFile& file) {
 }
 
 SearchSettings readSearch(const std::filesystem::path& path) {
-  return readSearch(station::readTaskFile(path));
+  const JsonFile file = station::readTaskFile(path);
+  training::needEngine(file, training::Engine::search);
+  needKind(file, "task_search", 1);
+  return readSearch(file);
 }
 
 haptics::FloorRendering renderingOn(const SearchSettings& task, const station::Station& station) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/random.h"
 #include "apps/training/engine.h"
@@ -28,8 +29,8 @@ std::vector<double> factorsIn(const JsonFile& file, const char* property) {
 
 SqueezeSettings readSqueeze(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
   training::needEngine(file, training::Engine::squeeze);
+  needKind(file, "task_squeeze", 1);
   SqueezeSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
