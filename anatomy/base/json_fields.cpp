@@ -28,10 +28,7 @@ nlohmann::json parseJson(const std::string& text, const std::string& file) {
     return parseJson(text, kDeepest,
                      [&] { throw UsageError("is nested too deep", file, "Correct the file"); });
   } catch (const nlohmann::json::exception& e) {
-    std::string words = e.what();
-    for (char& c : words)
-      if (static_cast<unsigned char>(c) < 32) c = ' ';
-    throw UsageError("is not valid JSON (" + words + ")", file,
+    throw UsageError("is not valid JSON (" + whyNoJson(text, e) + ")", file,
                      "Correct the file at the place named");
   }
 }

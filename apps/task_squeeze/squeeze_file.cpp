@@ -86,7 +86,7 @@ SqueezeComparison comparisonIn(const std::string& text) {
                                                                : SqueezedProperty::stiffness,
             said.at("factors").get<std::array<double, 2>>()};
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("does not describe two things (") + e.what() + ")", "event \"case\"",
+    throw Error("does not describe two things (" + whyNoJson(text, e) + ")", "event \"case\"",
                 "Restore the file from a backup");
   }
 }

@@ -19,10 +19,7 @@ namespace {
 constexpr const char* kRemedy = "The shipped forms in assets/checklists show how it is written";
 
 JsonFile formIn(const std::string& text, const std::string& where, const char* kind) {
-  nlohmann::json json = parsedOrDiscarded(text);
-  if (!json.is_object())
-    throw UsageError("is not JSON", where, "Restore it from the program's assets");
-  JsonFile file(std::move(json), where, kRemedy);
+  const JsonFile file = JsonFile::ofText(text, where, kRemedy);
   needKind(file, kind, 1);
   return file;
 }
