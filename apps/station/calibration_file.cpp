@@ -20,6 +20,7 @@ using nlohmann::json;
 constexpr int kCalibrationVersion = 1;
 constexpr const char* kCalibrationFormat = "palpa calibration";
 constexpr std::size_t kMostNumbers = 200'000;
+constexpr std::size_t kMostCoordinates = 1000;  // a matrix of as many rows and columns
 
 const EnumNames<CalibrationKind> kCalibrationKinds{
     "camera",       "tool",     "workspace", "registration", "latency",
@@ -137,6 +138,9 @@ void readCovariance(const JsonFile& file, CalibrationFile& c) {
   }
   const json matrix = covariance.value("matrix", json::array());
   const auto n = static_cast<Eigen::Index>(c.coordinates.size());
+  if (c.coordinates.size() > kMostCoordinates)
+    file.refuse("covariance/coordinates",
+                "has more than " + std::to_string(kMostCoordinates) + " names");
   if (!matrix.is_array() || matrix.size() != c.coordinates.size())
     file.refuse("covariance/matrix", "must be as large as its coordinates");
   c.covariance.resize(n, n);

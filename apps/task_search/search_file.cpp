@@ -1,6 +1,7 @@
 #include "apps/task_search/search_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/file_schema.h"
@@ -9,6 +10,26 @@
 
 namespace palpa::task_search {
 namespace {
+
+// Bumps of a texture, and places that are looked through for the bump under a finger, 1,000 times
+// a second.
+constexpr double kMostBumps = 100'000, kMostNear = 2'500;
+constexpr int kMostEpisodes = 10'000;
+
+double square(double x) { return x * x; }
+
+/// Refused before the floor is made: it would take minutes, or all memory.
+void needFewBumps(const JsonFile& file, const std::string& at, const haptics::BumpSpec& bumps) {
+  const double all = square(2 * bumps.outer / bumps.spacing),
+               near = square(2 * (bumps.radius + bumps.jitter) / bumps.spacing);
+  if (all > kMostBumps)
+    file.refuse(at + "/spacing_U",
+                "makes " + std::to_string(std::llround(all)) + " bumps on a disc; at most " +
+                    std::to_string(std::llround(kMostBumps)) + " can be felt in time");
+  if (near > kMostNear)
+    file.refuse(at + "/jitter_U",
+                "or the radius is too large for the spacing: too many bumps lie in one place");
+}
 
 haptics::BumpSpec bumpsIn(const JsonFile& file, const std::string& which,
                           const haptics::SearchSpec& spec) {
@@ -19,6 +40,7 @@ haptics::BumpSpec bumpsIn(const JsonFile& file, const std::string& which,
   bumps.jitter = file.number(at + "/jitter_U", 0, 100);
   bumps.inner = spec.pit;
   bumps.outer = spec.disc;
+  needFewBumps(file, at, bumps);
   return bumps;
 }
 
@@ -44,6 +66,10 @@ std::vector<SearchBlock> blocksIn(const JsonFile& file) {
   for (const JsonFile& block : file.entries("blocks"))
     blocks.push_back({block.text("name"), block.integer("episodes", 1, 1000),
                       block.integer("training", 0, 1) == 1});
+  int episodes = 0;
+  for (const SearchBlock& block : blocks)
+    if ((episodes += block.episodes) > kMostEpisodes)
+      file.refuse("blocks", "hold more than " + std::to_string(kMostEpisodes) + " episodes");
   return blocks;
 }
 
