@@ -116,7 +116,6 @@ void requireFormat(const JsonFile& file) {
       file.json().at("format") != kCalibrationFormat)
     throw UsageError("is not a calibration made by this program", file.name(),
                      "Give a file that `palpa calibrate` has written");
-  file.needVersion(kCalibrationVersion);
 }
 
 /// So that damage is told from a file that is none.
@@ -180,6 +179,8 @@ void readLists(const JsonFile& file, CalibrationFile& c) {
 }
 
 CalibrationFile read(const JsonFile& file) {
+  requireFormat(file);
+  file.needVersion(kCalibrationVersion);
   requireUnchanged(file);
   CalibrationFile c;
   const std::optional<CalibrationKind> kind = calibrationKindNamed(file.text("kind"));
@@ -222,7 +223,8 @@ std::optional<CalibrationKind> calibrationKindNamed(std::string_view name) {
 CalibrationFile readCalibration(const std::filesystem::path& path) {
   const JsonFile file = readOwnFile([&] {
     JsonFile whole(path);
-    requireFormat(whole);
+    if (whole.has("format") || !whole.has("sha256")) requireFormat(whole);
+    if (whole.has("version")) whole.needVersion(kCalibrationVersion);
     return whole;
   });
   refuseUnknownFields(file, "calibration");
