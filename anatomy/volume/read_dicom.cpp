@@ -140,10 +140,16 @@ bool lengthsFit(std::string_view bytes, std::size_t at, bool with_kinds) {
   return true;
 }
 
-/// Whether it is in a form that lengthsFit cannot follow: packed, or with the large byte first.
-bool isOtherwise(std::string_view head) {
-  return head.find("1.2.840.10008.1.2.1.99") != std::string_view::npos ||
-         head.find(std::string_view("1.2.840.10008.1.2.2")) != std::string_view::npos;
+/// How a file says that its elements are written (PS3.5, annex A): GDCM reads them so, and takes a
+/// length that stands in another way for gigabytes.
+enum class Syntax { with_kinds, without_kinds, packed, large_byte_first };
+
+Syntax syntaxNamed(const std::string& uid) {
+  if (uid == "1.2.840.10008.1.2.1.99") return Syntax::packed;
+  if (uid == "1.2.840.10008.1.2.2") return Syntax::large_byte_first;
+  for (const char* known : {"1.2.840.10008.1.2.1", "1.2.840.10008.1.2.4.", "1.2.840.10008.1.2.5"})
+    if (uid.starts_with(known)) return Syntax::with_kinds;
+  return Syntax::without_kinds;
 }
 
 /// Walks the elements of a file as far as they are plain (explicit VR, little endian): known kinds,
@@ -153,6 +159,7 @@ bool soundElements(const std::filesystem::path& file) {
   const std::string bytes = readWhole(file).value_or("");
   if (bytes.size() < 140 || bytes.compare(128, 4, "DICM") != 0) return false;
   std::uint32_t last = 0, meta = 0;
+  Syntax syntax = Syntax::without_kinds;
   for (std::size_t at = 132; at < bytes.size();) {
     if (bytes.size() - at < 8) return false;
     const std::size_t element = at;
@@ -175,17 +182,19 @@ bool soundElements(const std::filesystem::path& file) {
       std::memcpy(&length, &bytes[at + 8], 4);
       at += 12;
     } else {
-      return tag >= 0x00080000 && last < 0x00080000 &&  // another transfer syntax begins here
-             (isOtherwise(std::string_view(bytes).substr(0, element)) ||
-              lengthsFit(bytes, element, false));
+      return tag >= 0x00080000 && last < 0x00080000 &&  // elements without kinds begin here
+             (syntax == Syntax::packed ||
+              (syntax == Syntax::without_kinds && lengthsFit(bytes, element, false)));
     }
     if (length == 0xffffffff)
       return (kind == "SQ" || kind == "OB" || kind == "OW" || kind == "UN") &&
              lengthsFit(bytes, element, true);
     if (length > bytes.size() - at) return false;
+    if (tag >= 0x00080000 && syntax != Syntax::with_kinds) return false;
     if (tag == 0x00020000 && (length != 4 || kind != "UL")) return false;
     if (tag == 0x00020000) std::memcpy(&meta, &bytes[at], 4);
     if (kind == "US" && !sensible(tag, std::string_view(bytes).substr(at, length))) return false;
+    if (tag == 0x00020010) syntax = syntaxNamed(trimmedText(bytes.substr(at, length)));
     last = tag;
     at += length;
   }
