@@ -37,7 +37,7 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
     operator_ = session.at("operator").get<std::string>();
     trainee_ = session.value("trainee", "");
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("the session's description is damaged (") + e.what() + ")",
+    throw Error("the session's description is damaged (" + whyNoJson(info.session_json, e) + ")",
                 file.string(), "Restore the file from a backup");
   }
   const std::string patient = file.string() + ", its patient";

@@ -108,7 +108,7 @@ std::vector<assess::CaseLump> caseOf(const std::string& text) {
                        lump.at("hardness").get<int>(), lump.at("mobility").get<int>()});
     return lumps;
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("does not describe lumps (") + e.what() + ")", "event \"case\"",
+    throw Error("does not describe lumps (" + whyNoJson(text, e) + ")", "event \"case\"",
                 "Restore the file from a backup");
   }
 }
