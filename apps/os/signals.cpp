@@ -13,8 +13,16 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 struct sigaction old_actions[std::size(kSignals)];
 
 void note(int) { interrupted.store(true); }
+void passOver(int) {}
 
 }  // namespace
+
+void letLargeFilesFail() {
+  struct sigaction action {};
+  action.sa_handler = passOver;  // not ignored: programs that are started would inherit that
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGXFSZ, &action, nullptr);
+}
 
 InterruptNote::InterruptNote(Again again) {
   interrupted.store(false);

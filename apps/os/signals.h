@@ -2,6 +2,10 @@
 
 namespace palpa::os {
 
+/// From now on a write past the limit of a file's size fails, as one on a full disk does, instead
+/// of ending the program.
+void letLargeFilesFail();
+
 /// While it lives, Ctrl-C or SIGTERM is noted instead of ending the program. One at a time; the old
 /// handlers come back at its end.
 class InterruptNote {
