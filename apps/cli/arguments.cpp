@@ -176,6 +176,7 @@ void addRunArguments(CLI::App& command, session::SessionOptions& o) {
           "What may be seen: practice, assessed, pilot, substitution, or a file like those in "
           "assets/presentations. Default: practice; without force feedback practice that does not "
           "show the force either; assessed with --assess")
+      ->check(oneOfOrFile(shippedNames("presentations")))
       ->type_name("NAME|FILE");
   command.add_flag_callback(
       "--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");

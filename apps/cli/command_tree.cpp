@@ -38,7 +38,7 @@ void readType(const std::string& type, OptionText* option) {
   if (kind == "FLOAT" || kind == "INT" || kind == "UINT") kind = "NUMBER";
   if (const std::size_t open = limits.find('{'); open != std::string::npos) {
     option->choices = split(limits.substr(open + 1, limits.find('}', open) - open - 1), ',');
-    kind = joined(option->choices, "|");
+    kind = joined(option->choices, "|") + (kind.find("FILE") == std::string::npos ? "" : "|FILE");
   } else if (areWords(kind)) {
     option->choices = split(kind, '|');
   }

@@ -24,8 +24,10 @@ int tellFailure() {
 
 /// What is thrown on a thread that nobody waits for.
 [[noreturn]] void endWithWords() {
-  std::_Exit(std::current_exception() ? tellFailure()
-                                      : palpa::cli::complain("the program ended itself", 1));
+  std::_Exit(std::current_exception()
+                 ? tellFailure()
+                 : palpa::cli::complain(
+                       "something failed that was not foreseen, and the program had to stop", 1));
 }
 
 /// What went wrong is told once, in our words.

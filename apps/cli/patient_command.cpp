@@ -128,10 +128,6 @@ void printSurface(const CheckedSurface& surface, const PatientOptions& o) {
 /// Surfaces of a file that is no patient of ours (yet).
 void printSurfaces(const PatientOptions& o) {
   const Organ organ = o.organ.empty() ? Organ::none : organFromName(o.organ.c_str());
-  if (!o.organ.empty() && organ == Organ::none)
-    throw UsageError("is \"" + o.organ + "\"", "--organ",
-                     "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery, scapula, "
-                     "cartilage, airway, spine, inclusion");
   const anatomy::Unit unit = unitOf(o);
   std::vector<CheckedSurface> surfaces;
   for (anatomy::RawMesh& mesh : anatomy::readMeshFile(o.file)) {
@@ -242,7 +238,9 @@ void addPatient(CLI::App& program) {
   tells->add_option("--unit", o->unit, "Unit of a file of surfaces: " + anatomy::knownUnits())
       ->type_name("UNIT");
   tells->add_option("--organ", o->organ, "What the surfaces are, to check their size")
-      ->type_name("ORGAN");
+      ->type_name("ORGAN")
+      ->check(oneOf({"skin", "muscle", "clavicle", "rib", "sternum", "lung", "vein", "artery",
+                     "scapula", "cartilage", "airway", "spine", "inclusion"}));
   tells->callback([o] { info(*o); });
 }
 

@@ -39,7 +39,8 @@ void addCommands(CLI::App& program) {
   program.description("Visuo-haptic augmented reality for medical training");
   program.formatter(plainHelp());  // before the commands: they take it over
   program.set_version_flag("--version", "palpa " PALPA_VERSION);
-  program.add_flag("--verbose", "Anywhere: say as well what a library said when something fails");
+  program.add_flag("--verbose")
+      ->description("Anywhere: when something fails, tell as well what a library said of it");
   program.footer(
       "Examples:\n  palpa paracentesis --operator expert --seed 1 --fast --out A\n"
       "  palpa paracentesis --help");

@@ -2,9 +2,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/nearest_word.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/values.h"
@@ -71,11 +73,13 @@ using study_analysis::StudyRow;
 template <class NameOf>
 void requireNames(const std::vector<std::string>& names, const std::vector<StudyRow>& rows,
                   const char* option, NameOf nameOf) {
+  std::set<std::string> there;
+  for (const StudyRow& row : rows) there.insert(nameOf(row));
+  const std::vector<std::string> known(there.begin(), there.end());
   for (const std::string& name : names)
-    if (std::none_of(rows.begin(), rows.end(),
-                     [&](const StudyRow& row) { return nameOf(row) == name; }))
-      throw UsageError("is in no trial of this study", std::string(option) + " " + name,
-                       "Write it as the protocol or the table does");
+    if (there.count(name) == 0)
+      throw UsageError("is in no trial of this study" + didYouMean(name, known),
+                       std::string(option) + " " + name, "There are: " + listed(known, "and"));
 }
 
 void analyse(const AnalyseOptions& o) {

@@ -65,6 +65,10 @@ bool takesNothing(const CLI::Option& option) { return option.get_expected_max() 
 
 // ---- a word too many
 
+std::string has(const Chain& chain, const CLI::App& app) {
+  return &app == chain.front() ? "there is " : pathOf(chain, &app) + " has ";
+}
+
 std::string unknownOption(const Chain& chain, const CLI::App& app, const std::string& typed) {
   const std::string name = typed.substr(0, typed.find('='));
   const CLI::App& at = *chain.back();
@@ -74,14 +78,14 @@ std::string unknownOption(const Chain& chain, const CLI::App& app, const std::st
   const std::string whole = name.rfind("--", 0) == 0 ? name : "-" + name;
   const std::string meant =
       isOption(app, whole) ? "; did you mean " + whole + "?" : proposal(whole, optionNames(app));
-  return pathOf(chain, &app) + " has no option " + name + meant;
+  return has(chain, app) + "no option " + name + meant;
 }
 
 std::string unknownCommand(const Chain& chain, const CLI::App& app, const std::string& typed) {
   const std::vector<std::string> known = commandsOf(app);
   const std::string near = proposal(typed, known);
-  return pathOf(chain, &app) + " has no command " + quoted(typed) + (near.empty() ? "." : near) +
-         " There " + (known.size() == 1 ? "is " : "are ") + listed(known, "and");
+  return has(chain, app) + "no command " + quoted(typed) + (near.empty() ? "." : near) + " There " +
+         (known.size() == 1 ? "is " : "are ") + listed(known, "and");
 }
 
 std::string strayWord(const Chain& chain, const CLI::App& app, const std::string& typed) {

@@ -157,12 +157,18 @@ CLI::Validator oneOfOrFile(std::vector<std::string> words) {
   const std::string described = choicesOf(words);
   return {[words = std::move(words)](const std::string& typed) {
             std::error_code unreadable;
-            if (isAmong(words, typed) || fs::is_regular_file(typed, unreadable))
+            if (words.empty() || isAmong(words, typed) || fs::is_regular_file(typed, unreadable))
               return std::string();
             return refused(listed(words, "") + " or a file that is there", typed) +
                    proposal(typed, words);
           },
           described};
+}
+
+std::vector<std::string> shippedNames(const std::string& folder) {
+  std::vector<std::string> names = namesIn(shippedFolder(folder), ".json");
+  for (std::string& name : names) name = fs::path(name).stem().string();
+  return names;
 }
 
 CLI::Validator somethingThere(const std::string& shipped) {

@@ -21,8 +21,11 @@ CLI::Validator aNumber();
 
 /// One of these words; the nearest one is proposed.
 CLI::Validator oneOf(std::vector<std::string> words);
-/// One of them, or the name of a file that is there.
+/// One of them, or the name of a file that is there; without words anything.
 CLI::Validator oneOfOrFile(std::vector<std::string> words);
+
+/// What the files in a folder of the assets are called, without extension; sorted.
+std::vector<std::string> shippedNames(const std::string& folder);
 
 /// A file or folder that is there. Proposed is one of nearly that name beside it, or of those that
 /// come with the program, in the assets' folder `shipped`.
