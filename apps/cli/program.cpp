@@ -45,6 +45,7 @@ void addCommands(CLI::App& program) {
       "Examples:\n  palpa paracentesis --operator expert --seed 1 --fast --out A\n"
       "  palpa paracentesis --help");
   program.require_subcommand(0, 1);
+  program.parse_complete_callback([&program] { refuseLackingValues(program); });
   addParacentesis(program);
   addPalpation(program);
   addSqueeze(program);

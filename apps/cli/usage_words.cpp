@@ -218,6 +218,12 @@ std::string usageWords(const CLI::ParseError& error, const CLI::App& program) {
   return words + (ends ? "" : ".") + " See: " + pathOf(chain, chain.back()) + " --help";
 }
 
+void refuseLackingValues(const CLI::App& program) {
+  const Chain chain = chainOf(program);
+  if (!swallowedOption(*chain.back()).empty())
+    throw CLI::ValidationError(chain.back()->get_name(), "lacks a value");
+}
+
 namespace {
 
 constexpr const char* kNoMemory =

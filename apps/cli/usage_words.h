@@ -14,6 +14,10 @@ namespace palpa::cli {
 /// (--help, --version) use CLI::App::exit.
 std::string usageWords(const CLI::ParseError& error, const CLI::App& program);
 
+/// Of words that were all taken: throws where an option took the name of another one for its value
+/// ("--out --fast"), for usageWords to tell.
+void refuseLackingValues(const CLI::App& program);
+
 struct FailureWords {
   std::string text;
   int exit_code = 1;

@@ -25,8 +25,11 @@ void visit(const cli::CommandText& command,
 
 Commands::Commands() {
   cli::addCommands(program_);
-  // Called when all words were taken, before any action.
-  program_.parse_complete_callback([] { throw CLI::Success(); });
+  // Called when all words were taken, before any action; as the program asks then.
+  program_.parse_complete_callback([this] {
+    cli::refuseLackingValues(program_);
+    throw CLI::Success();
+  });
 }
 
 std::string Commands::complaintAbout(Words words) {
@@ -69,7 +72,7 @@ std::string faultOf(const std::string& complaint) {
     if (holds(complaint, foreign)) return std::string("a library's words: ") + foreign;
   if (holds(complaint, "\n")) return "more than a line";
   if (!holds(complaint, " See: palpa")) return "no way to the help";
-  return holds(complaint, "..") || holds(complaint, "?.") ? "two ends of a sentence" : "";
+  return holds(complaint, ".. See") || holds(complaint, "?.") ? "two ends of a sentence" : "";
 }
 
 std::vector<std::string> slipsOf(const std::string& name) {
