@@ -7,6 +7,7 @@
 
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
+#include "apps/cli/values.h"
 #include "apps/console/console.h"
 #include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
@@ -28,7 +29,9 @@ struct ConsoleOptions {
   bool open = true;
 };
 
-fs::path usualHome() { return os::dataFolder(".") / "palpa/console"; }
+fs::path usualHome() {
+  return os::dataFolder("Set HOME, or say where sessions are kept: --home DIR") / "palpa/console";
+}
 
 /// The first line; a file that others may read gives its token away.
 std::string tokenIn(const std::string& file) {
@@ -104,8 +107,7 @@ void addConsole(CLI::App& program) {
           "--listen", o->listen,
           "Address to listen on (default 127.0.0.1: this computer only); others need --token-file")
       ->type_name("ADDRESS");
-  command->add_option("--port", o->port, "Port (default: any free one)")
-      ->check(CLI::Range(1, 65535));
+  command->add_option("--port", o->port, "Port (default: any free one)")->check(inRange(1, 65535));
   command
       ->add_option("--token-file", o->token_file,
                    "File with the token that anyone who opens the pages must enter; only you may "

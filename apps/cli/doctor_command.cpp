@@ -5,6 +5,7 @@
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/doctor/computer_check.h"
 #include "apps/doctor/device_check.h"
 #include "apps/doctor/picture_facts.h"
@@ -105,6 +106,16 @@ Findings table(const station::Station& station, const PictureFacts& pictures,
   return all;
 }
 
+/// Without a home there are none, unless somebody says where.
+Finding recordsOf(const DoctorOptions& o) {
+  try {
+    return askRecords(o.records.empty() ? usualRecords() : o.records,
+                      record::PendingList(record::PendingList::usualFolder()).sessions().size());
+  } catch (const UsageError& e) {
+    return {"records", State::note, e.what(), "Sessions run without records"};
+  }
+}
+
 Findings examined(const DoctorOptions& o) {
   Findings all{askAssets()};
   if (canStart(all)) {
@@ -119,8 +130,7 @@ Findings examined(const DoctorOptions& o) {
         scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor")->describe());
   }));
   all.push_back(judgeHeadset(headsetRuntime()));
-  all.push_back(askRecords(
-      o.records, record::PendingList(record::PendingList::usualFolder()).sessions().size()));
+  all.push_back(recordsOf(o));
   all.push_back(judgeDisk(measureDisk(o.out)));
   all.push_back(judgeDate(runtime::utcNow(), kMade_utc));
   all.push_back(askLocale());
@@ -148,7 +158,10 @@ void print(const Findings& findings) {
 }
 
 void examine(DoctorOptions o) {
-  if (o.records.empty()) o.records = usualRecords();
+  try {
+    if (o.records.empty()) o.records = usualRecords();
+  } catch (const UsageError&) {  // no home: said among the findings
+  }
   const Findings findings = examined(o);
   if (o.json)
     std::printf("%s\n", toJson(findings).c_str());
@@ -179,10 +192,10 @@ void addDoctor(CLI::App& program) {
                    "Instead of the station's camera: recorded pictures or a film of it")
       ->type_name("GLOB|FILM");
   command->add_option("--bar", o->bar_mm, "Length of the printed board's 100 mm bar by a ruler, mm")
-      ->check(CLI::Range(50.0, 200.0));
+      ->check(inRange(50.0, 200.0, "mm"));
   command->add_option("--out", o->out, "Where results of sessions will go (default out)")
       ->type_name("DIR");
-  command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(CLI::PositiveNumber);
+  command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(moreThanZero());
   command->add_flag("--json", o->json,
                     "For programs: {\"can_start\", \"findings\": [{\"subject\", \"state\", "
                     "\"verdict\", \"fix\"}]}");

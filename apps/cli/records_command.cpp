@@ -11,6 +11,7 @@
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/records_actions.h"
+#include "apps/cli/values.h"
 #include "apps/evidence/evidence_records.h"
 #include "apps/record/store/delivery.h"
 #include "apps/runtime/clock.h"
@@ -145,7 +146,7 @@ void addTraineeOptions(CLI::App* command, RecordsOptions& o) {
   command->add_option("--group", o.group, "In the educator's words: novice, experienced, ...");
   command->add_option("--experience", o.experience, "\"3rd year\", \"50 lines\", ...");
   command->add_option("--handedness", o.handedness, "right (default) or left")
-      ->check(CLI::IsMember({"right", "left"}));
+      ->check(oneOf({"right", "left"}));
   command
       ->add_option("--keep-until", o.retain_until, "Date after which the records are to be deleted")
       ->type_name("YYYY-MM-DD")
@@ -223,7 +224,7 @@ void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   addWho(data, *o);
   data->add_option("--out", o->out, "Folder (default out/records-<time>)")->type_name("DIR");
   data->add_option("--format", o->format, "csv, json, or both (default)")
-      ->check(CLI::IsMember({"csv", "json", "both"}))
+      ->check(oneOf({"csv", "json", "both"}))
       ->type_name("csv|json|both");
   data->add_flag("--research", o->research, "For a study: only people who have agreed to that");
   data->add_flag("--paths", o->paths, "Include the paths of evidence on this computer");

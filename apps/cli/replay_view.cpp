@@ -8,6 +8,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/cli/values.h"
 #include "apps/evidence/recorded_show.h"
 #include "apps/live/jpeg.h"
 #include "apps/os/signals.h"
@@ -127,12 +128,13 @@ void writeFilm(evidence::RecordedShow& recorded, const Cut& cut, const ReplayVie
 /// Beside the pictures stands what they show: length, rate, and what happened when. It comes last:
 /// with it they are complete.
 void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
-  const std::filesystem::path folder = session::makeOutputFolder(o.pictures, "pictures");
+  session::OutputFolder output(o.pictures, "pictures");
+  const std::filesystem::path& folder = output.path();
   int count = 0;
   draw(recorded, cut, o, [&](int number, const scene::Image& picture) {
     char name[32];
     std::snprintf(name, sizeof name, "picture-%05d.jpg", number);
-    writeWhole(folder / name, live::jpegOf(picture, kPictureQuality));
+    writeWhole(folder / name, live::jpegOf(picture, kPictureQuality), Lasts::no);
     count = number + 1;
   });
   nlohmann::json told{{"from_s", cut.from_s},
@@ -146,6 +148,7 @@ void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const Repla
                              {"text", mark.words},
                              {"near_miss", mark.near_miss}});
   writeWhole(folder / "pictures.json", told.dump(1) + "\n");
+  output.keep();
   std::printf("Written: %s (%s, and pictures.json: what happened when)\n", folder.c_str(),
               counted(count, "picture").c_str());
 }
@@ -164,15 +167,15 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
           "Write single pictures into this folder (JPEG), and what happened when (pictures.json)")
       ->type_name("DIR");
   command.add_option("--trial", o.trial, "Which trial; default: the first that was finished")
-      ->check(CLI::PositiveNumber);
+      ->check(inRange(1, 100000));
   command.add_option("--speed", o.speed, "1: as fast as recorded")
-      ->check(CLI::Range(replay::kSlowest, replay::kFastest));
+      ->check(inRange(replay::kSlowest, replay::kFastest));
   command.add_option("--from", o.from_s, "Second of the trial to start at")
-      ->check(CLI::NonNegativeNumber);
+      ->check(notNegative("s"));
   command.add_option("--to", o.to_s, "Second of the trial to stop at; default: its end")
-      ->check(CLI::NonNegativeNumber);
+      ->check(notNegative("s"));
   command.add_option("--fps", o.frames_per_second, "Pictures per second")
-      ->check(CLI::Range(1.0, 120.0));
+      ->check(inRange(1.0, 120.0, "a second"));
   command.add_option("--size", o.size, "Size of the pictures, pixels")->type_name("WxH");
 }
 

@@ -6,8 +6,10 @@
 #include <thread>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/routes.h"
+#include "apps/os/file_access.h"
 #include "apps/os/file_lock.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
@@ -37,7 +39,7 @@ class OnlyOne {
     std::error_code none;
     fs::remove(url_, none);
   }
-  void announce(const std::string& url) { writeWhole(url_, url + "\n"); }
+  void announce(const std::string& url) { writeWhole(url_, url + "\n", Lasts::no); }
 
  private:
   const fs::path url_;
@@ -85,12 +87,8 @@ void addPages(WebServer& server, const Console& c) {
 }
 
 void prepare(const ConsolePlace& place) {
-  std::error_code none;
-  fs::create_directories(place.home, none);
-  fs::permissions(place.home, fs::perms::owner_all, none);
-  if (none)
-    throw Error("cannot be used (" + none.message() + ")", place.home.string(),
-                "Choose another folder with --home");
+  if (const std::error_code problem = os::makeFolders(place.home))
+    failFile("cannot be used", place.home, problem, "Or choose another folder with --home");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <openssl/rand.h>
 
 #include "anatomy/base/error.h"
+#include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -179,6 +180,7 @@ void Refusals::note(const std::string& remote, const std::string& method, const 
   std::error_code none;
   if (std::filesystem::file_size(file_, none) > kLongest && !none)
     std::filesystem::rename(file_, file_.string() + ".1", none);
+  if (os::createPrivate(file_)) return;  // a full disk, say: nothing is noted
   std::ofstream(file_, std::ios::app)
       << runtime::utcNow() << ' ' << word(remote) << ' ' << word(method) << ' '
       << word(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';

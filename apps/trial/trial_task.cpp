@@ -1,5 +1,7 @@
 #include "apps/trial/trial_task.h"
 
+#include <algorithm>
+
 #include "anatomy/base/error.h"
 #include "apps/trial/trial_scene.h"
 
@@ -27,6 +29,7 @@ TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels,
 
 std::int64_t TrialTask::step(std::int64_t now_ns) {
   apply(now_ns);
+  watchStop(now_ns);
   receiveDevice();
   watchCamera(now_ns);
   listen(now_ns);
@@ -115,17 +118,20 @@ void TrialTask::startTrial(std::int64_t now_ns) {
   status_.notice.clear();
   since_ns_ = now_ns;
   const runtime::TrialHeader header = begin(now_ns);
+  start_ns_ = header.t_ns;
   status_.role = training::roleNamed(header.role);
   status_.force_feedback = header.force_feedback;
   bus_.task_to_recorder.push(header);
   report(now_ns, EventKind::start, "Trial " + std::to_string(status_.trial) + " starts");
 }
 
+/// It ends with the last tick that was judged; one that was ended before its first, as it began.
 void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_t now_ns) {
   const Conclusion end = conclude(outcome, reason);
   const std::string& name = training::nameOf(outcome);
   note({now_ns, status_.trial, name, reason.empty() ? end.sentence : reason, 0});
-  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, last_.t_ns, name, reason,
+  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, std::max(last_.t_ns, start_ns_), name,
+                                               reason,
                                                outcome == Outcome::voided ? "" : end.scores_json});
   picture("end", end.caption);
   status_.state = TrialState::ended;
@@ -214,7 +220,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       if (status_.active()) endTrial(Outcome::voided, reason, now_ns);
       return;
     case UserCommand::emergency_stop:
-      return stopAll(now_ns);
+      return bus_.stop.press();
     case UserCommand::rearm:
       return rearm(now_ns);
     case UserCommand::quit:
@@ -224,6 +230,8 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       return;
     case UserCommand::note:
       return report(now_ns, EventKind::note, reason, request.at_s);
+    case UserCommand::remark:
+      return report(now_ns, EventKind::computer, reason);
     case UserCommand::done:
     case UserCommand::grade:
     case UserCommand::choose:
@@ -248,6 +256,14 @@ void TrialTask::goOn(std::int64_t now_ns) {
   report(now_ns, EventKind::resume, "The trial continues");
 }
 
+/// The force is gone since the tick after the press; here the trial learns of it.
+void TrialTask::watchStop(std::int64_t now_ns) {
+  const std::uint32_t presses = bus_.stop.presses();
+  if (presses == presses_seen_) return;
+  presses_seen_ = presses;
+  stopAll(now_ns);
+}
+
 void TrialTask::stopAll(std::int64_t now_ns) {
   status_.emergency_stop = true;
   status_.alarm = true;
@@ -257,6 +273,7 @@ void TrialTask::stopAll(std::int64_t now_ns) {
 }
 
 void TrialTask::rearm(std::int64_t now_ns) {
+  bus_.stop.rearm(presses_seen_);
   status_.emergency_stop = status_.alarm = false;
   if (status_.state == TrialState::running)
     status_.state = TrialState::paused;  // disarms: clears a trip
@@ -285,7 +302,6 @@ void TrialTask::publish(std::int64_t now_ns) {
   haptics::TickCommands commands;
   commands.trial = static_cast<std::uint32_t>(status_.trial);
   commands.armed = status_.state == TrialState::running;
-  commands.emergency_stop = status_.emergency_stop;
   if (status_.trial > 0) {
     commands.force_feedback = status_.force_feedback;
     command(commands);

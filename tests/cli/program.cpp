@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,16 +37,28 @@ void keepApart(const fs::path& folder) {
   if (const char* temporary = std::getenv("PALPA_TEST_TMPDIR")) ::setenv("TMPDIR", temporary, 1);
 }
 
+/// A test that means the program's files to end at some size names it in PALPA_TEST_FILE_LIMIT.
+void limitFiles() {
+  const char* bytes = std::getenv("PALPA_TEST_FILE_LIMIT");
+  if (!bytes) return;
+  const rlim_t most = std::strtoul(bytes, nullptr, 10);
+  const rlimit limit{most, most};
+  if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
+}
+
 [[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,
                          const fs::path& out, const fs::path& err, int fill) {
   // Fresh memory holds another byte in every run: what is read before it is written then differs.
   ::setenv("MALLOC_PERTURB_", std::to_string(fill).c_str(), 1);
+  for (const int asks : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2})
+    ::signal(asks, SIG_DFL);  // whatever runs the tests ignores
   redirect("/dev/null", STDIN_FILENO);
   redirect(out, STDOUT_FILENO);
   redirect(err, STDERR_FILENO);
   if (::chdir(folder.c_str()) != 0) ::_exit(126);
   ::unsetenv("DISPLAY");
   keepApart(folder);
+  limitFiles();
   arguments.insert(arguments.begin(), PALPA_PROGRAM);
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -89,9 +102,10 @@ bool Running::ended() {
   return child_ < 0;
 }
 
-int Running::interrupt() {
+int Running::interrupt(int signal) {
+  static_assert(SIGINT == 2);
   if (child_ < 0) return -1;
-  ::kill(child_, SIGINT);
+  ::kill(child_, signal);
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }

@@ -1,12 +1,18 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <string>
 
 #include "apps/os/child_process.h"
 #include "apps/os/signals.h"
 #include "apps/os/system_time.h"
 #include "apps/os/worker_processes.h"
+#include "tests/support/scratch_folder.h"
 
 namespace palpa::os {
 namespace {
@@ -52,6 +58,61 @@ TEST(Interrupt, IsNotedAndTheOldHandlerComesBack) {
   ::signal(SIGTERM, before);
 }
 
+TEST(Interrupt, AClosedTerminalAndTheOthersAreNoted) {
+  for (const int signal : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGTERM, SIGINT}) {
+    const auto before = ::signal(signal, SIG_DFL);
+    {
+      const InterruptNote note;
+      EXPECT_FALSE(note.noted());
+      ::raise(signal);
+      EXPECT_TRUE(note.noted()) << signal;
+    }
+    EXPECT_EQ(::signal(signal, before), SIG_DFL) << signal;
+  }
+}
+
+/// A terminal that closes sends its signal more than once.
+TEST(Interrupt, AClosedTerminalNeverKills) {
+  const auto before = ::signal(SIGHUP, SIG_DFL);
+  {
+    const InterruptNote note;
+    for (int i = 0; i < 3; ++i) ::raise(SIGHUP);
+    EXPECT_TRUE(note.noted());
+  }
+  ::signal(SIGHUP, before);
+}
+
+TEST(Interrupt, WhatNohupIgnoresStaysIgnored) {
+  const auto before = ::signal(SIGHUP, SIG_IGN);
+  {
+    const InterruptNote note;
+    ::raise(SIGHUP);
+    EXPECT_FALSE(note.noted());
+  }
+  EXPECT_EQ(::signal(SIGHUP, before), SIG_IGN);
+}
+
+TEST(Interrupt, OneWithinAnotherNotesTheSame) {
+  const InterruptNote outer(InterruptNote::Again::noted);
+  ::raise(SIGTERM);
+  {
+    const InterruptNote inner;
+    EXPECT_TRUE(inner.noted()) << "what was noted before it is not forgotten";
+  }
+  ::raise(SIGTERM);
+  EXPECT_TRUE(outer.noted());
+}
+
+TEST(Interrupt, AReaderWhoHasGoneAwayDoesNotKill) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ::close(ends[0]);
+  const InterruptNote note;
+  EXPECT_EQ(::write(ends[1], "x", 1), -1);
+  EXPECT_FALSE(note.noted());
+  ::close(ends[1]);
+}
+
 TEST(Interrupt, ASecondOneKills) {
   EXPECT_EXIT(
       {
@@ -74,6 +135,21 @@ TEST(SystemTime, GoesOnAndSleepsUntilThen) {
 TEST(Program, OneThatIsNotInstalledIsNotStarted) {
   EXPECT_FALSE(startProgram("palpa-no-such-program", {}));
   EXPECT_GT(processNumber(), 1);
+}
+
+/// In a process of its own: the limit stays.
+TEST(Signals, AFilePastItsLimitFailsInPlaceOfEndingTheProgram) {
+  const test::ScratchFolder folder("os-limit");
+  const auto written = [&] {
+    const rlimit limit{1000, 1000};
+    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(3);
+    letLargeFilesFail();
+    const int file = ::open((folder / "a").c_str(), O_WRONLY | O_CREAT, 0600);
+    const std::string much(1000, 'x');
+    if (::write(file, much.data(), much.size()) != 1000) ::_exit(4);
+    ::_exit(::write(file, much.data(), 1) < 0 && errno == EFBIG ? 0 : 5);
+  };
+  EXPECT_EXIT(written(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
