@@ -1,67 +1,204 @@
 #include "anatomy/base/whole_file.h"
 
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
 #include <array>
+#include <atomic>
 #include <cerrno>
-#include <cstring>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <mutex>
 #include <system_error>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 
 namespace palpa {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr std::size_t kEnough = 1 << 16;      // bytes that are worth a call
+constexpr std::size_t kLongestShown = 180;    // of a name; the system allows 255 bytes
+constexpr std::chrono::hours kForgotten{24};  // another computer's process may still be at it
+
 /// A session's evidence and a centre's records are databases; a page or a table that is given their
 /// name must not take their place.
-bool isDatabase(const std::filesystem::path& file) {
+bool isDatabase(const fs::path& file) {
   constexpr std::string_view kBegins = "SQLite format 3";
   std::string start(kBegins.size(), ' ');
   std::ifstream stream(file, std::ios::binary);
   return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == kBegins;
 }
 
-}  // namespace
-
-WholeFile::WholeFile(const std::filesystem::path& file)
-    : file_(file), beside_(file.string() + ".part") {
-  if (isDatabase(file_))
-    throw Error("holds a session or records, which nothing overwrites", file_.string(),
-                "Give another name");
-  stream_.open(beside_, std::ios::binary);
-  if (!stream_) fail(errno);
+bool isSomethingElse(fs::file_type type) {
+  return type == fs::file_type::block || type == fs::file_type::character ||
+         type == fs::file_type::fifo || type == fs::file_type::socket;
 }
 
-WholeFile::~WholeFile() {
-  std::error_code ignored;
-  if (!finished_) std::filesystem::remove(beside_, ignored);
+fs::path folderOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+std::string besideBegins(const fs::path& file) {
+  return "." + file.filename().string().substr(0, kLongestShown) + ".part-";
+}
+
+/// The process that wrote `rest`, "PID-N", of a name is no more.
+bool isNobodys(std::string_view rest) {
+  int process = 0;
+  const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), process);
+  return problem == std::errc() && end != rest.data() + rest.size() && *end == '-' && process > 0 &&
+         ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+/// What processes that were killed a day ago or more left of this file.
+void removeForgotten(const fs::path& file) {
+  const std::string begins = besideBegins(file);
+  std::error_code none;
+  for (auto entry = fs::directory_iterator(folderOf(file), none);
+       !none && entry != fs::directory_iterator(); entry.increment(none)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(begins) || !isNobodys(std::string_view(name).substr(begins.size())))
+      continue;
+    std::error_code problem;
+    const auto written = entry->last_write_time(problem);
+    if (!problem && fs::file_time_type::clock::now() - written > kForgotten)
+      fs::remove(entry->path(), problem);
+  }
+}
+
+}  // namespace
+
+WholeFile::WholeFile(const fs::path& file, Lasts lasts) : file_(file), lasts_(lasts) {
+  std::error_code none;
+  const fs::file_type there = fs::status(file_, none).type();
+  if (there == fs::file_type::directory || file_.filename().empty()) fail(EISDIR);
+  if (there == fs::file_type::regular && isDatabase(file_))
+    throw Error("holds a session or records, which nothing overwrites", file_.string(),
+                "Give another name");
+  if (isSomethingElse(there))
+    throw Error("is a device or a socket, no file", file_.string(), "Give another name");
+  if (lasts_ == Lasts::yes) removeForgotten(file_);
+  open();
+}
+
+WholeFile::~WholeFile() { discard(); }
+
+void WholeFile::open() {
+  static std::atomic<unsigned> count{0};
+  constexpr int kTries = 100;
+  const std::string begins = besideBegins(file_) + std::to_string(::getpid()) + "-";
+  for (int tries = 0; descriptor_ < 0 && tries < kTries; ++tries) {
+    beside_ = folderOf(file_) / (begins + std::to_string(++count));
+    descriptor_ =
+        ::open(beside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
+  if (descriptor_ < 0) fail(errno);
 }
 
 void WholeFile::write(std::string_view text) {
-  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream_) fail(errno);
+  waiting_ += text;
+  if (waiting_.size() >= kEnough) flush();
+}
+
+void WholeFile::flush() {
+  for (std::string_view left = waiting_; !left.empty();) {
+    const ssize_t count = ::write(descriptor_, left.data(), left.size());
+    if (count < 0 && errno != EINTR) fail(errno);
+    if (count > 0) left.remove_prefix(static_cast<std::size_t>(count));
+  }
+  waiting_.clear();
 }
 
 void WholeFile::finish() {
-  stream_.close();
-  if (!stream_) fail(errno);
-  std::error_code problem;
-  std::filesystem::rename(beside_, file_, problem);
-  if (problem) fail(problem.value());
-  finished_ = true;
+  flush();
+  if (lasts_ == Lasts::yes && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+    fail(errno);
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  std::error_code none;
+  const bool is_new = !fs::exists(fs::symlink_status(file_, none));
+  const bool closed = ::close(descriptor) == 0 || errno == EINTR;
+  if (!closed || std::rename(beside_.c_str(), file_.c_str()) != 0) {
+    const int reason = errno;
+    ::unlink(beside_.c_str());
+    failFile("cannot be written", file_, reason);
+  }
+  if (is_new) WrittenTogether::note(file_);
 }
 
-void WholeFile::fail(int reason) const {
-  throw Error(std::string("cannot be written (") + std::strerror(reason) + ")", file_.string(),
-              "Check that the folder exists, may be written to and has free space");
+void WholeFile::discard() noexcept {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(beside_.c_str());
+  descriptor_ = -1;
 }
 
-void writeWhole(const std::filesystem::path& file, std::string_view content) {
-  WholeFile whole(file);
+void WholeFile::fail(int reason) {
+  discard();
+  failFile("cannot be written", file_, reason);
+}
+
+void writeWhole(const fs::path& file, std::string_view content, Lasts lasts) {
+  WholeFile whole(file, lasts);
   whole.write(content);
   whole.finish();
 }
 
-std::optional<std::string> readWhole(const std::filesystem::path& file) {
+namespace {
+
+struct Noted {
+  std::mutex mutex;
+  std::vector<fs::path> made;
+  bool notes = false;
+};
+
+Noted& noted() {
+  static Noted one;
+  return one;
+}
+
+}  // namespace
+
+WrittenTogether::WrittenTogether() {
+  const std::lock_guard lock(noted().mutex);
+  first_ = !noted().notes;
+  noted().notes = true;
+}
+
+WrittenTogether::~WrittenTogether() {
+  if (!first_) return;
+  const std::lock_guard lock(noted().mutex);
+  for (auto made = noted().made.rbegin(); made != noted().made.rend(); ++made) {
+    std::error_code ignored;
+    fs::remove(*made, ignored);
+  }
+  noted().made.clear();
+  noted().notes = false;
+}
+
+void WrittenTogether::keep() {
+  if (!first_) return;
+  const std::lock_guard lock(noted().mutex);
+  noted().made.clear();
+  noted().notes = first_ = false;
+}
+
+void WrittenTogether::note(const fs::path& made) {
+  const std::lock_guard lock(noted().mutex);
+  if (!noted().notes) return;
+  std::error_code none;
+  noted().made.push_back(fs::absolute(made, none));
+}
+
+std::optional<std::string> readWhole(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return std::nullopt;
   std::string bytes;

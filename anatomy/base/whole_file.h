@@ -1,18 +1,24 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace palpa {
 
-/// A file that is there whole or not at all: written beside under another name, renamed by
-/// finish(). Never takes the place of a session or of records. All throw Error.
+/// `yes`: on the disk before it takes its name, so that a power cut leaves the old file or the new
+/// one. `no`: for what is made again easily, or in great numbers.
+enum class Lasts { yes, no };
+
+/// A file that is there whole or not at all: written beside under a name of its own
+/// (".NAME.part-PID-N"), renamed by finish(). What fails or is left unfinished is removed. A link
+/// of the file's name is replaced, never followed. Never takes the place of a session or of
+/// records. All throw Error.
 class WholeFile {
  public:
-  explicit WholeFile(const std::filesystem::path& file);
+  explicit WholeFile(const std::filesystem::path& file, Lasts lasts = Lasts::yes);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
@@ -21,13 +27,36 @@ class WholeFile {
   void finish();
 
  private:
-  [[noreturn]] void fail(int reason) const;
+  void open();
+  void flush();
+  void discard() noexcept;
+  [[noreturn]] void fail(int reason);
+
   std::filesystem::path file_, beside_;
-  std::ofstream stream_;
-  bool finished_ = false;
+  Lasts lasts_;
+  std::string waiting_;  ///< to be written
+  int descriptor_ = -1;
 };
 
-void writeWhole(const std::filesystem::path& file, std::string_view content);
+void writeWhole(const std::filesystem::path& file, std::string_view content,
+                Lasts lasts = Lasts::yes);
+
+/// What a command writes belongs together: the files that were not there before, written by
+/// WholeFile while this lives, are gone again at its end, unless they are kept. One at a time; a
+/// second one within does nothing of its own.
+class WrittenTogether {
+ public:
+  WrittenTogether();
+  ~WrittenTogether();
+  WrittenTogether(const WrittenTogether&) = delete;
+  WrittenTogether& operator=(const WrittenTogether&) = delete;
+  void keep();
+  /// A file or a folder that was made just now; of folders the empty ones go.
+  static void note(const std::filesystem::path& made);
+
+ private:
+  bool first_;
+};
 
 /// The bytes of a file; nullopt where it cannot be read or is a folder. How large a file may be is
 /// the caller's question.

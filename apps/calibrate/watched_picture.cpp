@@ -60,7 +60,7 @@ void WatchedPicture::write() const {
                cv::LINE_AA);
   const std::vector<std::uint8_t> bytes = ar::encode(".jpg", shown, {cv::IMWRITE_JPEG_QUALITY, 85});
   try {
-    writeWhole(file_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    writeWhole(file_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, Lasts::no);
   } catch (const Error&) {
   }
 }

@@ -225,17 +225,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Where it cannot be made, opening says what is wrong.
 void makeFolderOf(const std::string& url) {
-  std::error_code ignored;  // opening says what is wrong
-  if (!record::isServer(url) && url.find("://") == std::string::npos)
-    fs::create_directories(fs::absolute(url).parent_path(), ignored);
+  if (!record::isServer(url)) os::makeFolders(fs::absolute(url).parent_path());
 }
 
 }  // namespace
 
 std::string usualRecords() {
   if (const char* url = std::getenv("PALPA_RECORDS"); url && *url) return url;
-  return (os::dataFolder(".") / "palpa/records.sqlite").string();
+  return (os::dataFolder("Set HOME, or say where the records are: --records FILE") /
+          "palpa/records.sqlite")
+      .string();
 }
 
 std::string usualRecordsMade() {
@@ -245,6 +246,7 @@ std::string usualRecordsMade() {
 }
 
 void requireRecords(const std::string& url) {
+  record::requireAddress(url);
   if (record::isServer(url)) return;
   std::error_code none;
   const bool there = fs::exists(url, none);
@@ -261,10 +263,8 @@ void addRecordsArgument(CLI::App& command, std::string& url) {
                   "Records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, "
                   "else ~/.local/share/palpa/records.sqlite)")
       ->type_name("FILE|URL");
-  command.parse_complete_callback([&url] {
-    if (!url.empty()) return;
-    url = usualRecordsMade();
-  });
+  command.parse_complete_callback(
+      [&url] { url.empty() ? void(url = usualRecordsMade()) : record::requireAddress(url); });
 }
 
 }  // namespace palpa::cli

@@ -57,9 +57,11 @@ void calibrateSubtasks(const SubtaskCommand& o) {
   const Origin origin{recordings.station,   command,         "recorded sessions", runtime::utcNow(),
                       recordings.simulated, recordings.files};
   const Result result = subtaskResult(recordings, found, origin);
-  const std::filesystem::path folder = session::makeOutputFolder(o.out, "calibrate-subtasks");
+  session::OutputFolder output(o.out, "calibrate-subtasks");
+  const std::filesystem::path& folder = output.path();
   station::writeCalibration(result.file, folder / "calibration.json");
   writeSubtaskPage(recordings, found, result, folder / "calibration.html");
+  output.keep();
   std::printf("%s%s\n", result.title.c_str(), recordings.simulated ? " (SIMULATED)" : "");
   for (const std::string& sentence : result.sentences) std::printf("  %s\n", sentence.c_str());
   for (const std::string& advice : result.advice) std::printf("  Mind: %s\n", advice.c_str());

@@ -85,12 +85,14 @@ Origin originOf(const CalibrateOptions& o, const station::Station& station) {
 /// What was found, on standard output and as a page.
 void leave(const CalibrateOptions& o, const station::Station& station, const SetupResult& setup,
            std::vector<std::string> remarks, const std::string& accuracy) {
-  const std::filesystem::path folder = session::makeOutputFolder(o.out, "calibrate-" + o.name());
+  session::OutputFolder output(o.out, "calibrate-" + o.name());
+  const std::filesystem::path& folder = output.path();
   writeCalibrations(station, setup.calibrations, folder);
   PageHead head{station.title, setup.results.front().file.date,
                 setup.results.front().file.simulated, setup.seconds, std::move(remarks)};
   writePage(head, setup.results, folder / "calibration.html");
   if (!accuracy.empty()) writeWhole(folder / "accuracy.json", accuracy + "\n");
+  output.keep();
   std::string failed;
   for (const Result& r : setup.results) {
     std::printf("%s%s: %s\n", r.title.c_str(), r.file.simulated ? " (simulated)" : "",

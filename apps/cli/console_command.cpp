@@ -28,7 +28,9 @@ struct ConsoleOptions {
   bool open = true;
 };
 
-fs::path usualHome() { return os::dataFolder(".") / "palpa/console"; }
+fs::path usualHome() {
+  return os::dataFolder("Set HOME, or say where sessions are kept: --home DIR") / "palpa/console";
+}
 
 /// The first line; a file that others may read gives its token away.
 std::string tokenIn(const std::string& file) {

@@ -105,6 +105,16 @@ Findings table(const station::Station& station, const PictureFacts& pictures,
   return all;
 }
 
+/// Without a home there are none, unless somebody says where.
+Finding recordsOf(const DoctorOptions& o) {
+  try {
+    return askRecords(o.records.empty() ? usualRecords() : o.records,
+                      record::PendingList(record::PendingList::usualFolder()).sessions().size());
+  } catch (const UsageError& e) {
+    return {"records", State::note, e.what(), "Sessions run without records"};
+  }
+}
+
 Findings examined(const DoctorOptions& o) {
   Findings all{askAssets()};
   if (canStart(all)) {
@@ -119,8 +129,7 @@ Findings examined(const DoctorOptions& o) {
         scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor")->describe());
   }));
   all.push_back(judgeHeadset(headsetRuntime()));
-  all.push_back(askRecords(
-      o.records, record::PendingList(record::PendingList::usualFolder()).sessions().size()));
+  all.push_back(recordsOf(o));
   all.push_back(judgeDisk(measureDisk(o.out)));
   all.push_back(judgeDate(runtime::utcNow(), kMade_utc));
   all.push_back(askLocale());
@@ -148,7 +157,10 @@ void print(const Findings& findings) {
 }
 
 void examine(DoctorOptions o) {
-  if (o.records.empty()) o.records = usualRecords();
+  try {
+    if (o.records.empty()) o.records = usualRecords();
+  } catch (const UsageError&) {  // no home: said among the findings
+  }
   const Findings findings = examined(o);
   if (o.json)
     std::printf("%s\n", toJson(findings).c_str());

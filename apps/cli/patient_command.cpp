@@ -3,6 +3,7 @@
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "anatomy/import/import_patient.h"
 #include "anatomy/import/repair.h"
 #include "anatomy/import/surface_topology.h"
@@ -224,8 +225,10 @@ void addPatient(CLI::App& program) {
     make->get_option("--phantom")->excludes(make->get_option(of_person));
   make->get_option("--phantom")->excludes(make->get_option("--ct"));
   make->callback([o, ct, side] {
+    WrittenTogether written;
     anatomy::writePatient(
         ct->ct.empty() ? build(*o) : buildFromCt(*ct, side->count() ? o->side : ""), o->out);
+    written.keep();
     std::printf("Written: %s\n", o->out.c_str());
   });
   addImport(*patient);

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 #include "anatomy/patient/gltf_picture.h"
 #include "anatomy/patient/patient_check.h"
@@ -24,7 +25,8 @@ void writePicture(const anatomy::RgbPicture& picture, const std::filesystem::pat
 
 /// One picture a step: what was found, over the brightest of the scan.
 void writePreviews(const anatomy::CtPatient& ct, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+  if (const std::error_code problem = os::makeFolders(folder))
+    failFile("cannot be made", folder, problem);
   using Labels = std::vector<const anatomy::LabelledOrgan*>;
   const auto those = [&](std::initializer_list<Organ> organs) {
     Labels labels;

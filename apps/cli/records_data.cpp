@@ -5,6 +5,7 @@
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/records_actions.h"
 #include "apps/evidence/evidence_records.h"
@@ -54,12 +55,14 @@ void backUpRecords(const RecordsOptions& o) {
   if (fs::exists(o.out))
     throw UsageError("already exists, and a backup never overwrites", o.out,
                      "Give another name, such as one with today's date");
-  const PassingFile beside(o.out + "." + std::to_string(os::processNumber()) + ".part");
+  const std::string part = o.out + "." + std::to_string(os::processNumber()) + ".part";
+  if (const std::error_code problem = os::createNew(part))
+    failFile("cannot be written", o.out, problem);
+  const PassingFile beside(part);
   const std::size_t rows = copied(o.url, beside.name());
   std::error_code problem;
   fs::rename(beside.name(), o.out, problem);
-  if (problem)
-    throw Error("cannot be written (" + problem.message() + ")", o.out, "Choose another place");
+  if (problem) failFile("cannot be written", o.out, problem);
   std::printf("Written: %s, %s\n", o.out.c_str(), counted(rows, "row").c_str());
 }
 
@@ -75,8 +78,8 @@ void restoreRecords(const RecordsOptions& o) {
   std::error_code problem;
   fs::copy_file(o.from, copy.name(), fs::copy_options::overwrite_existing, problem);
   if (problem)
-    throw Error("cannot be copied (" + problem.message() + ")", o.from,
-                "Free space in " + fs::temp_directory_path().string() + ", or set TMPDIR");
+    failFile("cannot be copied to " + fs::temp_directory_path().string(), o.from, problem,
+             "Or set TMPDIR to another folder");
   fs::permissions(copy.name(), fs::perms::owner_read | fs::perms::owner_write, problem);
   const std::size_t rows = copied(copy.name(), o.url);
   std::printf("Restored: %s into the %s\n", counted(rows, "row").c_str(),
@@ -150,8 +153,10 @@ void exportRecords(const RecordsOptions& o) {
   People people = chosen(store, o);
   if (o.research) keepAgreed(people, &record::Trainee::research_utc, "use in studies");
   const link::Dataset data = link::datasetOf(store, people);
-  const std::filesystem::path folder = session::makeOutputFolder(o.out, "records");
+  session::OutputFolder output(o.out, "records");
+  const std::filesystem::path& folder = output.path();
   const auto written = link::writeTables(link::tablesOf(data, o.paths), formatOf(o.format), folder);
+  output.keep();
   const auto simulated = std::count_if(data.sessions.begin(), data.sessions.end(),
                                        [](const record::StoredSession& s) { return s.simulated; });
   std::printf("%s, %s (%lld simulated), %s\n", counted(people.size(), "trainee").c_str(),

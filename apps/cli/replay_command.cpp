@@ -6,6 +6,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/replay_view.h"
 #include "apps/evidence/recorded_session.h"
@@ -194,14 +195,15 @@ void addExport(CLI::App& program) {
   command->add_option("--out", *out, "CSV to write")->type_name("FILE");
   command->callback([file, out] {
     const record::SessionReader reader(*file);
+    WrittenTogether written;
     record::exportTicks(reader, *out);
     const std::string dictionary =
         std::filesystem::path(*out).replace_extension("columns.txt").string();
-    std::ofstream words(dictionary);
+    std::string words;
     for (const record::TickColumn& column : record::tickColumns())
-      words << column.name << ": " << column.meaning << '\n';
-    words.close();
-    if (!words) throw Error("cannot be written", dictionary, "Choose another place with --out");
+      words += column.name + (": " + column.meaning) + '\n';
+    writeWhole(dictionary, words);
+    written.keep();
     std::printf("Written: %s, %s\n", out->c_str(), dictionary.c_str());
   });
 }

@@ -127,12 +127,13 @@ void writeFilm(evidence::RecordedShow& recorded, const Cut& cut, const ReplayVie
 /// Beside the pictures stands what they show: length, rate, and what happened when. It comes last:
 /// with it they are complete.
 void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
-  const std::filesystem::path folder = session::makeOutputFolder(o.pictures, "pictures");
+  session::OutputFolder output(o.pictures, "pictures");
+  const std::filesystem::path& folder = output.path();
   int count = 0;
   draw(recorded, cut, o, [&](int number, const scene::Image& picture) {
     char name[32];
     std::snprintf(name, sizeof name, "picture-%05d.jpg", number);
-    writeWhole(folder / name, live::jpegOf(picture, kPictureQuality));
+    writeWhole(folder / name, live::jpegOf(picture, kPictureQuality), Lasts::no);
     count = number + 1;
   });
   nlohmann::json told{{"from_s", cut.from_s},
@@ -146,6 +147,7 @@ void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const Repla
                              {"text", mark.words},
                              {"near_miss", mark.near_miss}});
   writeWhole(folder / "pictures.json", told.dump(1) + "\n");
+  output.keep();
   std::printf("Written: %s (%s, and pictures.json: what happened when)\n", folder.c_str(),
               counted(count, "picture").c_str());
 }

@@ -202,9 +202,10 @@ void reportTrainee(const ReportOptions& o) {
                      "trainee " + trainee->id,
                      "palpa records show --id " + trainee->id +
                          " says what there is; palpa records add brings sessions in");
-  const std::filesystem::path file =
-      session::makeOutputFolder(o.out, "report-" + trainee->id) / "trainee.html";
+  session::OutputFolder output(o.out, "report-" + trainee->id);
+  const std::filesystem::path file = output.path() / "trainee.html";
   report::writeTraineeReport(page, file);
+  output.keep();
   std::printf("Written: %s (%s)\n", file.string().c_str(),
               counted(page.trials.size(), "trial").c_str());
 }
@@ -220,9 +221,10 @@ void reportCohort(const ReportOptions& o) {
         "has no trials in the records",
         o.choice.group.empty() ? "this choice" : "group " + o.choice.group,
         "palpa records trainee list shows the groups; palpa records add brings sessions in");
-  const std::filesystem::path file =
-      session::makeOutputFolder(o.out, "report-cohort") / "cohort.html";
+  session::OutputFolder output(o.out, "report-cohort");
+  const std::filesystem::path file = output.path() / "cohort.html";
   report::writeCohortReport(page, file);
+  output.keep();
   std::printf("Written: %s (%s)\n", file.string().c_str(),
               counted(page.trials.size(), "trial").c_str());
 }

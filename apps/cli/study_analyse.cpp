@@ -86,9 +86,11 @@ void analyse(const AnalyseOptions& o) {
   requireNames(o.conditions, input.rows, "--conditions",
                [](const StudyRow& row) { return row.condition; });
   const study_analysis::StudyResult result = study_analysis::analyseStudy(input.rows, input.design);
-  const fs::path folder = session::makeOutputFolder(o.out, "study");
+  session::OutputFolder output(o.out, "study");
+  const fs::path& folder = output.path();
   const std::vector<fs::path> files = report::writeStudyTables(result, folder);
   report::writeStudyReport({result, input.sources}, folder / "report.html");
+  output.keep();
   if (result.simulated_trials > 0)
     std::printf("SIMULATED: %zu of %zu trials\n", result.simulated_trials, result.trials);
   for (const std::string& finding : result.findings) std::printf("%s\n", finding.c_str());

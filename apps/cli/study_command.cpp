@@ -21,6 +21,7 @@ constexpr const char* kRunExamples = R"(Examples:
 
 /// Notes of this station name the records; they must mean the same from any folder.
 std::string fromAnywhere(const std::string& url) {
+  record::requireAddress(url);
   return record::isServer(url) ? url : std::filesystem::absolute(url).string();
 }
 

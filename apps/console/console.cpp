@@ -6,8 +6,10 @@
 #include <thread>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/routes.h"
+#include "apps/os/file_access.h"
 #include "apps/os/file_lock.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
@@ -37,7 +39,7 @@ class OnlyOne {
     std::error_code none;
     fs::remove(url_, none);
   }
-  void announce(const std::string& url) { writeWhole(url_, url + "\n"); }
+  void announce(const std::string& url) { writeWhole(url_, url + "\n", Lasts::no); }
 
  private:
   const fs::path url_;
@@ -57,6 +59,22 @@ std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
   return hosts;
 }
 
+/// The server's own thread, ended in any case: an error on the way, as of a full disk, is to be said.
+class Serving {
+ public:
+  explicit Serving(WebServer& server) : server_(server), thread_([&server] { server.serve(); }) {}
+  ~Serving() {
+    server_.end();
+    thread_.join();
+  }
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+
+ private:
+  WebServer& server_;
+  std::thread thread_;
+};
+
 void addPages(WebServer& server, const Console& c) {
   server.Get("/", [&c](const httplib::Request&, httplib::Response& r) {
     sendFile(r, c.place.pages / "index.html", mediaTypeOf(".html"));
@@ -68,12 +86,8 @@ void addPages(WebServer& server, const Console& c) {
 }
 
 void prepare(const ConsolePlace& place) {
-  std::error_code none;
-  fs::create_directories(place.home, none);
-  fs::permissions(place.home, fs::perms::owner_all, none);
-  if (none)
-    throw Error("cannot be used (" + none.message() + ")", place.home.string(),
-                "Choose another folder with --home");
+  if (const std::error_code problem = os::makeFolders(place.home))
+    failFile("cannot be used", place.home, problem, "Or choose another folder with --home");
 }
 
 }  // namespace
@@ -87,6 +101,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
     throw UsageError(
         "needs a token", "--listen " + s.address,
         "Others can reach this address: give a file that holds a token with --token-file");
+  os::shareMemoryPools();
   prepare(s.place);
   OnlyOne only(s.place.home);
   if (!s.station.empty()) chooseStation(s.place, s.station);
@@ -101,7 +116,6 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
     throw Error("cannot be opened for listening",
                 s.address + (s.port ? ", port " + std::to_string(s.port) : ""),
                 "Perhaps another program uses it: choose another with --port");
-  server.widen();
   guard.answerTo(hostsOf(s, port));
   Console console(s.place, guard, s.tone);
   addPages(server, console);
@@ -111,10 +125,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   addLiveRoutes(server, console);
   addReplayRoutes(server, console);
   checkHealth(console);
-  std::thread serving([&] {
-    os::giveWay();
-    server.listen_after_bind();
-  });
+  const Serving serving(server);
   const std::string url = "http://" + bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) +
                           ":" + std::to_string(port) + "/";
   only.announce(url);
@@ -122,9 +133,8 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   while (!interrupt.noted()) {
     runtime::rest(kRound);
     console.sessions.look();
+    server.noteTurnedAway();
   }
-  server.end();
-  serving.join();
 }
 
 }  // namespace palpa::console

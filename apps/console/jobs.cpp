@@ -6,6 +6,7 @@
 
 #include "anatomy/base/error.h"
 #include "apps/console/process_log.h"
+#include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -43,7 +44,7 @@ nlohmann::json fractionOf(const std::vector<std::string>& lines) {
 }
 
 Jobs::Jobs(const ConsolePlace& place) : place_(place) {
-  fs::create_directories(place_.jobs());
+  os::makeFolders(place_.jobs());  // the first job meets what is wrong
   clearOld(place_.jobs());
   thread_ = std::thread([this] { run(); });
 }
@@ -109,7 +110,7 @@ void Jobs::run() {
 void Jobs::perform(const std::string& id) {
   const fs::path folder = place_.jobs() / id;
   std::error_code none;
-  fs::create_directories(folder, none);
+  os::makeFolders(folder);
   os::ProcessId process;
   JobRequest request;
   {

@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/process_log.h"
+#include "apps/os/file_access.h"
 #include "apps/record/session_file.h"
 
 namespace palpa::console {
@@ -68,7 +70,7 @@ json trialOf(const record::RecordedTrial& trial, const std::vector<runtime::Even
            {"role", trial.header.role},
            {"outcome", trial.ended ? trial.end.outcome : "interrupted"},
            {"reason", trial.end.reason},
-           {"length_s", static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9}};
+           {"length_s", trial.length_s()}};
   const json scores = parsedOrDiscarded(trial.end.scores_json);
   if (scores.is_object() && scores.contains("TOTAL")) one["total"] = scores["TOTAL"];
   if (std::string summary = summaryOf(events, trial); !summary.empty())
@@ -114,7 +116,7 @@ std::string messageOf(const std::string& state, const fs::path& folder) {
 }  // namespace
 
 Sessions::Sessions(const ConsolePlace& place) : place_(place) {
-  fs::create_directories(place_.sessions());
+  os::makeFolders(place_.sessions());  // whoever starts a session meets what is wrong
   find();
 }
 
@@ -144,9 +146,15 @@ void Sessions::find() {
   for (const auto& entry : fs::directory_iterator(place_.sessions(), none)) {
     std::string id = entry.path().filename().string();
     const os::ProcessId process = processOf(factsOf(entry.path()));
-    if (isId(id) && os::runs(process))
-      running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
+    if (isId(id) && os::runs(process)) connect(id, process);
   }
+}
+
+void Sessions::connect(const std::string& id, os::ProcessId process) {
+  auto link = std::make_shared<SessionLink>(socketOf(id));
+  running_[id] = {process, link, false};
+  const std::lock_guard lock(links_mutex_);
+  links_[id] = std::move(link);
 }
 
 std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> arguments) {
@@ -157,7 +165,8 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
     throw UsageError("is running already", "a session", "End it first, or wait until it is over");
   std::string id = newId();
   fs::path folder = place_.sessions() / id;
-  fs::create_directories(folder);
+  if (const std::error_code problem = os::makeFolders(folder))
+    failFile("cannot be made", folder, problem);
   for (const std::string& more :
        {std::string("--live"), socketOf(id), std::string("--out"), folder.string()})
     arguments.push_back(more);
@@ -170,7 +179,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   facts["pid"] = process.pid;
   facts["began"] = process.began;
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
-  running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
+  connect(id, process);
   return id;
 }
 
@@ -252,6 +261,12 @@ std::shared_ptr<SessionLink> Sessions::link(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = running_.find(id);
   return found == running_.end() ? nullptr : found->second.link;
+}
+
+std::shared_ptr<SessionLink> Sessions::linkForStop(const std::string& id) const {
+  const std::lock_guard lock(links_mutex_);
+  const auto found = links_.find(id);
+  return found == links_.end() ? nullptr : found->second;
 }
 
 bool Sessions::oneRuns() {

@@ -37,7 +37,7 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
     operator_ = session.at("operator").get<std::string>();
     trainee_ = session.value("trainee", "");
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("the session's description is damaged (") + e.what() + ")",
+    throw Error("the session's description is damaged (" + whyNoJson(info.session_json, e) + ")",
                 file.string(), "Restore the file from a backup");
   }
   const std::string patient = file.string() + ", its patient";
@@ -52,12 +52,13 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
   trials_ = reader_->trials();
 }
 
-void RecordedSession::eachTrial(
-    const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const {
-  assess::TrialSampler sampler(X_DA_.inverse(), reader_->info().tick_config.X_ET);
-  Samples samples;
+void eachNeedleTrial(
+    const record::SessionReader& reader, const Pose& X_DA,
+    const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
+  assess::TrialSampler sampler(X_DA.inverse(), reader.info().tick_config.X_ET);
+  NeedleSamples samples;
   record::walkTrials(
-      *reader_, trials_,
+      reader, reader.trials(),
       {.begin =
            [&](const record::RecordedTrial& trial) {
              samples.clear();

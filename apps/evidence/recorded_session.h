@@ -19,6 +19,14 @@
 
 namespace palpa::evidence {
 
+using NeedleSamples = std::vector<assess::TrialSample>;
+
+/// Calls `visit` with every trial of a needle session and all its judged ticks, in A: one pass over
+/// the record, with one trial's ticks in memory. Throws Error.
+void eachNeedleTrial(
+    const record::SessionReader& reader, const Pose& X_DA,
+    const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit);
+
 /// A session as its evidence tells it; needs nothing but the file.
 class RecordedSession {
  public:
@@ -33,10 +41,11 @@ class RecordedSession {
   const anatomy::SurfaceQuery& query() const { return *query_; }
   const std::string& trainee() const { return trainee_; }  ///< pseudonym of who performed
   const std::vector<record::RecordedTrial>& trials() const { return trials_; }
-  using Samples = std::vector<assess::TrialSample>;
-  /// Calls `visit` with every trial and all its judged ticks, in A: one pass over the record.
+  using Samples = NeedleSamples;
   void eachTrial(
-      const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const;
+      const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const {
+    eachNeedleTrial(*reader_, X_DA_, visit);
+  }
   bool hasGoal() const { return task_.goal.has_value(); }  ///< else the vein, by an expert path
   /// The trial scored again, from the evidence alone: of a task with a goal of its own success,
   /// time and course. Throws Error when no expert path was recorded.

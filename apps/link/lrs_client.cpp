@@ -2,10 +2,13 @@
 
 #include <httplib.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <utility>
 
 #include "anatomy/base/error.h"
+#include "apps/link/exchange_watch.h"
 
 namespace palpa::link {
 namespace {
@@ -112,6 +115,11 @@ Login loginFor(const std::string& host, const std::string& user) {
 namespace {
 
 constexpr char kVersionHeader[] = "X-Experience-API-Version", kVersion[] = "1.0.3";
+// An answer with its head, and what protects it on the way
+constexpr std::uint64_t kMostReceived =
+    LrsClient::kLongestAnswer + (LrsClient::kLongestAnswer >> 3);
+constexpr char kTooLong[] = "the answer is longer than 1 MB",
+               kTooSlow[] = "the answer did not end within the time allowed";
 
 std::string inWords(httplib::Error error) {
   switch (error) {
@@ -130,7 +138,7 @@ std::string inWords(httplib::Error error) {
     case httplib::Error::SSLServerVerification:
       return "its certificate is not trusted, or is another computer's";
     default:
-      return httplib::to_string(error);
+      return "the request failed";
   }
 }
 
@@ -138,13 +146,15 @@ std::string inWords(httplib::Error error) {
 
 struct LrsClient::Impl {
   Impl(const Endpoint& e, const Login& login, const LrsTimes& times)
-      : endpoint(e), client(e.origin) {
+      : endpoint(e), whole(times.whole_s), client(e.origin) {
     client.set_connection_timeout(times.connect_s);
     client.set_read_timeout(times.answer_s);
     client.set_write_timeout(times.answer_s);
     client.set_keep_alive(true);
     client.set_tcp_nodelay(true);  // head and body are written apart, and would wait for each other
     client.set_follow_location(false);
+    client.set_decompress(false);  // none is asked for, and a small one may grow without bound
+    client.set_socket_options([this](socket_t socket) { connection.use(socket); });
     client.enable_server_certificate_verification(true);
     if (!login.user.empty()) client.set_basic_auth(login.user, login.password);
   }
@@ -153,7 +163,30 @@ struct LrsClient::Impl {
     return endpoint.path + "/statements?" + parameter + "=" + id;
   }
 
-  static LrsAnswer answerOf(const httplib::Result& result) {
+  LrsAnswer answerTo(httplib::Request request) {
+    std::string body;
+    bool too_long = false;
+    request.headers.insert(headers.begin(), headers.end());
+    request.content_receiver = [&](const char* bytes, std::size_t count, std::uint64_t,
+                                   std::uint64_t) {
+      too_long = body.size() + count > kLongestAnswer;
+      if (!too_long) body.append(bytes, count);
+      return !too_long;
+    };
+    ExchangeWatch watch(connection, whole, kMostReceived);
+    const httplib::Result result = client.send(request);
+    const ExchangeWatch::Cut cut = watch.end();
+    LrsAnswer answer;
+    if (too_long || cut == ExchangeWatch::Cut::too_much)
+      answer.trouble = kTooLong;
+    else if (cut == ExchangeWatch::Cut::too_slow)
+      answer.trouble = kTooSlow;
+    else
+      answer = answerOf(result, std::move(body));
+    return answer;
+  }
+
+  static LrsAnswer answerOf(const httplib::Result& result, std::string body) {
     LrsAnswer answer;
     if (!result) {
       answer.trouble = inWords(result.error());
@@ -161,11 +194,13 @@ struct LrsClient::Impl {
     }
     answer.status = result->status;
     answer.is_lrs = result->get_header_value(kVersionHeader).rfind("1.", 0) == 0;
-    answer.body = result->body;
+    answer.body = std::move(body);
     return answer;
   }
 
   const Endpoint endpoint;
+  const std::chrono::seconds whole;
+  WatchedConnection connection;
   httplib::Client client;
   const httplib::Headers headers{{kVersionHeader, kVersion}, {"Accept", "application/json"}};
 };
@@ -175,12 +210,19 @@ LrsClient::LrsClient(const Endpoint& endpoint, const Login& login, const LrsTime
 LrsClient::~LrsClient() = default;
 
 LrsAnswer LrsClient::put(const std::string& id, const std::string& statement) {
-  return Impl::answerOf(impl_->client.Put(impl_->resource("statementId", id), impl_->headers,
-                                          statement, "application/json"));
+  httplib::Request request;
+  request.method = "PUT";
+  request.path = impl_->resource("statementId", id);
+  request.body = statement;
+  request.headers.emplace("Content-Type", "application/json");
+  return impl_->answerTo(std::move(request));
 }
+
 LrsAnswer LrsClient::get(const std::string& id, bool voided) {
-  return Impl::answerOf(impl_->client.Get(
-      impl_->resource(voided ? "voidedStatementId" : "statementId", id), impl_->headers));
+  httplib::Request request;
+  request.method = "GET";
+  request.path = impl_->resource(voided ? "voidedStatementId" : "statementId", id);
+  return impl_->answerTo(std::move(request));
 }
 
 }  // namespace palpa::link

@@ -1,8 +1,6 @@
 #include "apps/link/outbox.h"
 
-#include <fstream>
-
-#include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "apps/os/file_access.h"
 
 namespace palpa::link {
@@ -28,15 +26,11 @@ CREATE TABLE IF NOT EXISTS letters(
 constexpr char kColumns[] = "id,voids,session,trial,person,body";
 
 fs::path prepared(const fs::path& file) {
-  std::error_code problem;
-  fs::create_directories(file.parent_path(), problem);
-  if (problem)
-    throw Error("cannot be made (" + problem.message() + ")", file.parent_path().string(),
-                "Make it writable, or set XDG_STATE_HOME to another folder");
-  if (!fs::exists(file, problem)) {
-    std::ofstream(file, std::ios::app).flush();
-    fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, problem);
-  }
+  constexpr char kInstead[] = "Or set XDG_STATE_HOME to another folder";
+  if (const std::error_code problem = os::makeFolders(file.parent_path()))
+    failFile("cannot be made", file.parent_path(), problem, kInstead);
+  if (const std::error_code problem = os::createPrivate(file))
+    failFile("cannot be written", file, problem, kInstead);
   return file;
 }
 
@@ -67,7 +61,9 @@ void Outbox::writeAhead() {
   }
 }
 
-fs::path Outbox::usualFile() { return os::stateFolder("/tmp") / "palpa/xapi.sqlite"; }
+fs::path Outbox::usualFile() {
+  return os::stateFolder("Set HOME, or XDG_STATE_HOME to a folder of yours") / "palpa/xapi.sqlite";
+}
 
 void Outbox::insert(const Route& r, const Letter& l) {
   record::Statement(database_, std::string("INSERT OR IGNORE INTO letters(endpoint,records,") +

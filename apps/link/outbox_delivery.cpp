@@ -7,6 +7,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
+#include "anatomy/base/plain_text.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/uuid.h"
 #include "apps/link/statement.h"
@@ -32,7 +33,7 @@ json parsedBody(const LrsAnswer& answer) {
 
 std::string firstWords(const std::string& body) {
   constexpr std::size_t kEnough = 160;
-  std::string words = body.substr(0, std::min(body.find_first_of("\r\n"), kEnough));
+  const std::string words = plainText(body.substr(0, body.find_first_of("\r\n")), kEnough);
   return words.empty() ? "no reason given" : words;
 }
 

@@ -53,7 +53,8 @@ LiveSession::LiveSession(const std::string& socket, const Hello& hello, trial::C
     : channels_(channels),
       stop_(stop),
       port_(socket, beginWith(log_, hello),
-            [this](const std::string& command) { receive(command); }) {}
+            [this](const std::string& command) { receive(command); }),
+      stop_port_(stopSocketOf(socket), [this] { stop_.press(); }) {}
 
 void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
                        std::int64_t now_ns) {
@@ -77,7 +78,7 @@ void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
   if (now == published_) return;
   published_ = std::move(now);
   words["t_s"] = secondsOf(now_ns);
-  log_.addCurve(entryOf(words));
+  log_.addPassing(entryOf(words), static_cast<std::uint32_t>(status.trial));
 }
 
 void LiveSession::picture(scene::Image picture, std::int64_t now_ns) {

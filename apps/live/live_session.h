@@ -4,6 +4,7 @@
 
 #include "apps/live/live_sink.h"
 #include "apps/live/port.h"
+#include "apps/live/stop_port.h"
 #include "apps/runtime/stop_switch.h"
 #include "apps/trial/trial_status.h"
 
@@ -41,7 +42,8 @@ class LiveSession {
   std::string published_;  ///< the last status, without its time
   int refused_ = 0;        ///< told: a peer that sends nonsense for hours shall not fill the memory
   std::int64_t next_words_ns_ = 0, next_picture_ns_ = 0;
-  Port port_;  ///< last: its thread uses the rest
+  Port port_;  ///< after what its thread uses
+  StopPort stop_port_;
 };
 
 }  // namespace palpa::live

@@ -1,7 +1,6 @@
 #include "apps/live/port.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "apps/live/jpeg.h"
@@ -52,8 +51,7 @@ Port::~Port() {
   ending_.store(true);
   thread_.join();
   os::closeSocket(listener_);
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  os::removeSocket(path_);
 }
 
 void Port::offer(scene::Image picture) {

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 
 extern char** environ;
@@ -75,8 +75,7 @@ ProcessId start(const std::vector<std::string>& arguments, const std::filesystem
   pid_t pid = 0;
   if (const int error = posix_spawn(&pid, "/proc/self/exe", &how.files, &how.attributes,
                                     pointersTo(words).data(), environ))
-    throw Error(std::string("cannot be started (") + std::strerror(error) + ")",
-                "palpa " + arguments.front(), "Check memory and disk space");
+    failFile("cannot be started", "palpa " + arguments.front(), error);
   if (gives_way) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), kNice);
   return {pid, beganAt(pid)};
 }
@@ -91,6 +90,12 @@ bool runs(const ProcessId& process) {
 
 void askToEnd(const ProcessId& process) {
   if (runs(process)) ::kill(process.pid, SIGINT);
+}
+
+void becomeAnew(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"palpa"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  ::execv("/proc/self/exe", pointersTo(words).data());
 }
 
 bool startProgram(const std::string& name, const std::vector<std::string>& arguments) {

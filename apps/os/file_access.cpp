@@ -7,32 +7,60 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
+
 namespace palpa::os {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr mode_t kAllMayRead = 0644, kUserAlone = 0600, kOthers = 0077;
+constexpr mode_t kUserAlone = 0600, kUsersFolder = 0700, kOthers = 0077;
 
-std::error_code created(const fs::path& file, int flags, mode_t mode) {
-  const int descriptor = ::open(file.c_str(), flags | O_CREAT | O_CLOEXEC, mode);
-  if (descriptor < 0) return {errno, std::system_category()};
+std::error_code lastError() { return {errno, std::system_category()}; }
+
+std::error_code opened(const fs::path& file, int flags) {
+  const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, kUserAlone);
+  if (descriptor < 0) return lastError();
   ::close(descriptor);
   return {};
 }
 
-fs::path folderOf(const char* variable, const char* in_home, const fs::path& homeless) {
+fs::path folderOf(const char* variable, const char* in_home, const std::string& advice) {
   if (const char* folder = std::getenv(variable); folder && *folder == '/') return folder;
   const char* home = std::getenv("HOME");
-  return (home && *home ? fs::path(home) : homeless) / in_home;
+  if (home && *home == '/') return fs::path(home) / in_home;
+  throw UsageError(std::string("is not known, for neither HOME nor ") + variable + " is set",
+                   "this user's folder", advice);
 }
 
 }  // namespace
 
 std::error_code createNew(const fs::path& file) {
-  return created(file, O_EXCL | O_WRONLY, kAllMayRead);
+  return opened(file, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
 }
 
-std::error_code createPrivate(const fs::path& file) { return created(file, O_RDWR, kUserAlone); }
+std::error_code createPrivate(const fs::path& file) {
+  const std::error_code problem = createNew(file);
+  return problem == std::errc::file_exists ? opened(file, O_RDWR) : problem;
+}
+
+std::error_code makeFolders(const fs::path& folder) {
+  fs::path upto;
+  for (const fs::path& part : folder) {
+    upto /= part;
+    if (part.empty() || part == "/" || part == "." || part == "..") continue;
+    if (::mkdir(upto.c_str(), kUsersFolder) == 0) {
+      WrittenTogether::note(upto);
+      continue;
+    }
+    const std::error_code problem = lastError();
+    std::error_code none;
+    if (!fs::is_directory(upto, none))
+      return problem == std::errc::file_exists ? make_error_code(std::errc::not_a_directory)
+                                               : problem;
+  }
+  return {};
+}
 
 bool mayWrite(const fs::path& path) { return ::access(path.c_str(), W_OK) == 0; }
 
@@ -53,12 +81,12 @@ TemporaryFolder::~TemporaryFolder() {
   if (made_) fs::remove_all(path_, ignored);
 }
 
-fs::path dataFolder(const fs::path& homeless) {
-  return folderOf("XDG_DATA_HOME", ".local/share", homeless);
+fs::path dataFolder(const std::string& advice) {
+  return folderOf("XDG_DATA_HOME", ".local/share", advice);
 }
 
-fs::path stateFolder(const fs::path& homeless) {
-  return folderOf("XDG_STATE_HOME", ".local/state", homeless);
+fs::path stateFolder(const std::string& advice) {
+  return folderOf("XDG_STATE_HOME", ".local/state", advice);
 }
 
 std::string programStamp() {

@@ -6,12 +6,14 @@
 
 namespace palpa::os {
 
-/// Makes an empty file that others may read. std::errc::file_exists where the name is taken, also
-/// by another process a moment ago: what is there stays as it is.
+/// Makes an empty file that this user alone may read. std::errc::file_exists where the name is
+/// taken, also by a link, or by another process a moment ago: what is there stays as it is.
 std::error_code createNew(const std::filesystem::path& file);
-/// Makes an empty file that this user alone may read, unless there is one: that stays as it is, and
-/// must be writable.
+/// The same, unless there is one: that stays as it is, and must be writable.
 std::error_code createPrivate(const std::filesystem::path& file);
+/// Makes a folder and those above it that are missing, for this user alone. Those that are there
+/// stay as they are.
+std::error_code makeFolders(const std::filesystem::path& folder);
 
 /// This user may write to the file, or into the folder.
 bool mayWrite(const std::filesystem::path& path);
@@ -36,11 +38,12 @@ class TemporaryFolder {
   bool made_ = false;
 };
 
-/// This user's folder for what programs must not lose: $XDG_DATA_HOME, else ~/.local/share; below
-/// `homeless` where there is no home. Not made.
-std::filesystem::path dataFolder(const std::filesystem::path& homeless);
+/// This user's folder for what programs must not lose: $XDG_DATA_HOME, else ~/.local/share. Not
+/// made. Throws UsageError where neither is set, with the caller's advice: nothing is written in
+/// odd places.
+std::filesystem::path dataFolder(const std::string& advice);
 /// For what a program remembers between its runs: $XDG_STATE_HOME, else ~/.local/state.
-std::filesystem::path stateFolder(const std::filesystem::path& homeless);
+std::filesystem::path stateFolder(const std::string& advice);
 
 /// Tells builds of a program apart: where the running one lies, its size, when it was last written.
 std::string programStamp();

@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 
 namespace palpa::os {
 namespace {
@@ -46,13 +47,41 @@ int connectTo(const std::string& path) {
   return -1;
 }
 
+namespace {
+
+enum class Place { free, dead_socket, in_use, something_else };
+
+/// A socket that was not asked, because its queue is full, say, counts as in use.
+Place whatIsAt(const std::string& path, const sockaddr_un& address) {
+  struct stat facts {};
+  if (::lstat(path.c_str(), &facts) != 0) return Place::free;
+  if (!S_ISSOCK(facts.st_mode) || facts.st_uid != ::geteuid()) return Place::something_else;
+  const int socket = unixSocket();
+  if (socket < 0) return Place::in_use;
+  const bool refused =
+      ::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 &&
+      errno == ECONNREFUSED;
+  ::close(socket);
+  return refused ? Place::dead_socket : Place::in_use;
+}
+
+}  // namespace
+
+void removeSocket(const std::string& path) {
+  struct stat facts {};
+  if (::lstat(path.c_str(), &facts) == 0 && S_ISSOCK(facts.st_mode) && facts.st_uid == ::geteuid())
+    ::unlink(path.c_str());
+}
+
 int listenAt(const std::string& path, const std::string& advice) {
   const sockaddr_un address = addressOf(path);
-  if (const int there = connectTo(path); there >= 0) {
-    ::close(there);
+  const Place place = whatIsAt(path, address);
+  if (place == Place::in_use)
     throw Error("is in use by another session", path, "End that one first");
-  }
-  ::unlink(path.c_str());
+  if (place == Place::something_else)
+    throw Error("is there already, and is no socket of yours: it is left as it is", path,
+                "Give another name");
+  if (place == Place::dead_socket) ::unlink(path.c_str());
   const int socket = unixSocket();
   const mode_t mask = ::umask(0177);
   const bool good =
@@ -63,8 +92,7 @@ int listenAt(const std::string& path, const std::string& advice) {
   ::umask(mask);
   if (good) return socket;
   if (socket >= 0) ::close(socket);
-  throw Error(std::string("cannot be made (") + std::strerror(error) + ")", "local socket " + path,
-              advice);
+  failFile("cannot be made", "local socket " + path, error, advice);
 }
 
 bool sameUser(int socket) {
@@ -83,8 +111,7 @@ std::string socketFolder() {
           ? std::string(runtime) + "/palpa"
           : ((none ? "/tmp" : temporary) / ("palpa-" + std::to_string(::geteuid()))).string();
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    throw Error(std::string("cannot be made (") + std::strerror(errno) + ")", folder,
-                "Set XDG_RUNTIME_DIR to a folder of yours");
+    failFile("cannot be made", folder, errno, "Set XDG_RUNTIME_DIR to a folder of yours");
   struct stat facts {};
   if (::lstat(folder.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode) ||
       facts.st_uid != ::geteuid() || (facts.st_mode & 0077) != 0)

@@ -4,10 +4,13 @@
 
 namespace palpa::os {
 
-/// A listening Unix socket at `path`, readable by this user only; what a dead process left there is
-/// removed. Throws Error; `advice`: where there can be none.
+/// A listening Unix socket at `path`, readable by this user only. A socket of this user's at which
+/// nobody listens any more is replaced; anything else that is there stays, and Error is thrown.
+/// `advice`: where there can be none.
 int listenAt(const std::string& path,
              const std::string& advice = "Give a folder that can be written to");
+/// Removes what listenAt has made, where it is a socket of this user's still.
+void removeSocket(const std::string& path);
 /// Connected, or -1: nobody is there, or nobody can be (the path is too long for a socket).
 int connectTo(const std::string& path);
 /// The process at the other end runs as the same user.

@@ -53,8 +53,10 @@ class SessionWriter final : public runtime::FlightSink {
 
 struct RecordedTrial {
   runtime::TrialHeader header;
-  runtime::TrialEnd end;
-  bool ended = false;  ///< false: the process stopped in the middle
+  runtime::TrialEnd end;  ///< `t_ns` of one that did not end: of the last tick that was recorded
+  bool ended = false;     ///< false: the process stopped in the middle
+
+  double length_s() const { return 1e-9 * static_cast<double>(end.t_ns - header.t_ns); }
 
   /// Whether it had ended before this time; one that the process stopped in has not.
   bool isOver(std::int64_t t_ns) const { return ended && t_ns > end.t_ns; }

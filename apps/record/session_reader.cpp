@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 
 #include "apps/record/evidence.h"
@@ -30,6 +31,7 @@ struct SessionReader::Impl {
   explicit Impl(const std::filesystem::path& path) : file(path), evidence(path) {}
 
   void readInfo();
+  std::int64_t lastTick_ns();
   void checkPages();
   Statement query(const std::string& sql);
   void check(bool sound, const char* table, std::int64_t row) const;
@@ -111,6 +113,23 @@ void SessionReader::Impl::readInfo() {
   std::memcpy(static_cast<void*>(&info.pair_config.emplace()), pair.data(), pair.size());
 }
 
+/// Session time of the last tick that was recorded; 0: none was, or it is damaged, which whoever
+/// reads the ticks is told.
+std::int64_t SessionReader::Impl::lastTick_ns() {
+  constexpr std::size_t kSize = sizeof(haptics::FlightRecord);
+  Statement row =
+      query("SELECT count,record_size,blob FROM ticks ORDER BY first_tick DESC LIMIT 1");
+  if (!row.step()) return 0;
+  const std::int64_t count = row.integer(0);
+  if (row.integer(1) != kSize || count < 1 || count > static_cast<std::int64_t>(kChunkTicks))
+    return 0;
+  const auto bytes = unpackRecords(row.blob(2), kSize, static_cast<std::size_t>(count));
+  if (!bytes) return 0;
+  haptics::FlightRecord last;
+  std::memcpy(static_cast<void*>(&last), bytes->data() + (count - 1) * kSize, kSize);
+  return last.t_ns;
+}
+
 SessionReader::SessionReader(const std::filesystem::path& file)
     : impl_(std::make_unique<Impl>(file)) {
   impl_->readInfo();
@@ -148,6 +167,7 @@ std::vector<RecordedTrial> SessionReader::trials() const {
                    "trials", h.trial);
     } else {
       impl_->check(row.isNull(7) && row.isNull(8), "trials", h.trial);
+      trial.end.t_ns = std::max(impl_->lastTick_ns(), h.t_ns);
     }
     trials.push_back(std::move(trial));
   }

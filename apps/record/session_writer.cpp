@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/uuid.h"
 #include "apps/os/file_access.h"
 #include "apps/record/schema.h"
@@ -14,12 +15,11 @@ namespace {
 
 /// Claims the name: evidence is never overwritten, not even by two processes at once.
 void createEmpty(const std::filesystem::path& file) {
-  if (const std::error_code problem = os::createNew(file)) {
-    throw Error(problem == std::errc::file_exists
-                    ? "a file of this name already exists; evidence is never overwritten"
-                    : "cannot be created: " + problem.message(),
-                file.string(), "Choose another folder with --out");
-  }
+  const std::error_code problem = os::createNew(file);
+  if (problem == std::errc::file_exists)
+    throw Error("a file of this name already exists; evidence is never overwritten", file.string(),
+                "Choose another folder with --out");
+  if (problem) failFile("cannot be created", file, problem, "Or choose another folder with --out");
 }
 
 void removeAll(const std::filesystem::path& file) noexcept {

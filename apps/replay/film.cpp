@@ -1,14 +1,30 @@
 #include "apps/replay/film.h"
 
+#include <cerrno>
+
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
+#include "apps/os/child_process.h"
+#include "apps/os/file_access.h"
 
 namespace palpa::replay {
 namespace {
 
+/// A name that nobody has, of the same ending, by which the writer knows the kind.
 std::filesystem::path besideOf(const std::filesystem::path& file) {
-  return file.parent_path() / ("." + file.stem().string() + ".part" + file.extension().string());
+  constexpr int kTries = 100;
+  for (int tries = 1; tries <= kTries; ++tries) {
+    std::filesystem::path beside =
+        file.parent_path() /
+        ("." + file.stem().string() + ".part-" + std::to_string(os::processNumber()) + "-" +
+         std::to_string(tries) + file.extension().string());
+    const std::error_code problem = os::createNew(beside);
+    if (!problem) return beside;
+    if (problem != std::errc::file_exists) failFile("cannot be written", file, problem);
+  }
+  failFile("cannot be written", file, EEXIST);
 }
 
 int countedFrames(const std::filesystem::path& file) {
@@ -34,9 +50,11 @@ Film::Film(const std::filesystem::path& file, double frames_per_second, int widt
       writer_(ar::makeVideoWriter()),
       width_(width),
       height_(height) {
-  if (!writer_->open(beside_.string(), codecOf(file), frames_per_second, {width, height}))
-    throw Error("cannot be written", file.string(),
-                "Choose another place or --size, or try the ending .avi");
+  if (writer_->open(beside_.string(), codecOf(file), frames_per_second, {width, height})) return;
+  std::error_code ignored;
+  std::filesystem::remove(beside_, ignored);
+  throw Error("cannot be written", file.string(),
+              "Choose another place or --size, or try the ending .avi");
 }
 
 Film::~Film() {
@@ -63,7 +81,9 @@ void Film::finish() {
     throw Error("only " + std::to_string(there) + " of " + std::to_string(frames_) +
                     " pictures can be read again",
                 file_.string(), "Is the disk full?");
-  std::filesystem::rename(beside_, file_);
+  std::error_code problem;
+  std::filesystem::rename(beside_, file_, problem);
+  if (problem) failFile("cannot be written", file_, problem);
   finished_ = true;
 }
 

@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
+#include "apps/os/file_access.h"
 #include "ar/codecs/codecs.h"
 
 namespace palpa::runtime {
@@ -69,12 +71,19 @@ const char* nameOf(ar::TrackState state) {
   return "lost";
 }
 
+/// It belongs to the evidence: for this user alone, and never in another's place.
+std::filesystem::path claimed(const std::filesystem::path& file) {
+  if (const std::error_code problem = os::createNew(file))
+    failFile("cannot be written", file, problem, "Or choose another --out");
+  return file;
+}
+
 }  // namespace
 
 VideoRecorder::VideoRecorder(const std::filesystem::path& folder)
-    : film_(folder / "camera.mjpeg"),
+    : film_(claimed(folder / "camera.mjpeg")),
       pictures_file_(film_, std::ios::binary),
-      table_(film_.string() + ".csv") {
+      table_(claimed(film_.string() + ".csv")) {
   if (!pictures_file_ || !table_)
     throw Error("cannot be written", film_.string(), "Choose another --out");
   ar::loadCodecs();

@@ -44,11 +44,10 @@ std::optional<anatomy::Patient> kept(const std::filesystem::path& file) {
 }
 
 void keep(const anatomy::Patient& patient, const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::filesystem::create_directories(file.parent_path(), ignored);
+  os::makeFolders(file.parent_path());  // writing says what is wrong
   const std::string glb = anatomy::glbOf(patient, file.string());
   try {
-    writeWhole(file, sha256(glb) + '\n' + glb);
+    writeWhole(file, sha256(glb) + '\n' + glb, Lasts::no);
   } catch (const Error&) {  // a full disk, a folder that is not ours: the next one builds it anew
   }
 }

@@ -1,29 +1,72 @@
 #include "apps/session/output_folder.h"
 
-#include "apps/runtime/clock.h"
-
-#include <fstream>
+#include <cerrno>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
+#include "apps/os/file_access.h"
+#include "apps/record/session_file.h"
+#include "apps/record/store/delivery.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::session {
-std::filesystem::path makeOutputFolder(const std::string& given, const std::string& command) {
-  std::filesystem::path folder =
-      given.empty() ? std::filesystem::path("out") /
+namespace {
+
+namespace fs = std::filesystem;
+constexpr char kInstead[] = "Or choose another folder with --out";
+
+constexpr char kEvidence[] = "session.palpa";
+
+void proveWritable(const fs::path& folder) {
+  if (!os::mayWrite(folder)) failFile("cannot be written to", folder, EACCES, kInstead);
+  const fs::path probe = folder / ".palpa-write-test";
+  writeWhole(probe, "x", Lasts::no);
+  std::error_code ignored;
+  fs::remove(probe, ignored);
+}
+
+/// The session's UUID, where its evidence is there and holds nothing that was felt or done.
+std::string emptySession(const fs::path& evidence) {
+  const record::SessionReader reader(evidence);
+  bool empty = reader.trials().empty();
+  if (empty) reader.ticks([&](const haptics::FlightRecord&) { empty = false; });
+  return empty ? reader.info().uuid : "";
+}
+
+/// False: there is evidence that stays.
+bool removedEmpty(const fs::path& evidence) noexcept {
+  std::error_code ignored;
+  if (!fs::exists(evidence, ignored)) return true;
+  try {
+    const std::string uuid = emptySession(evidence);
+    if (uuid.empty()) return false;
+    for (const char* beside : {"", "-wal", "-shm", "-journal"})
+      fs::remove(evidence.string() + beside, ignored);
+    record::PendingList(record::PendingList::usualFolder()).forget(uuid);
+    return true;
+  } catch (const std::exception&) {  // whoever reads it says what is wrong
+    return false;
+  }
+}
+
+}  // namespace
+
+fs::path makeOutputFolder(const std::string& given, const std::string& command) {
+  fs::path folder =
+      given.empty() ? fs::path("out") /
                           (command + "-" + runtime::dateText("%Y%m%d-%H%M%S", runtime::Zone::local))
-                    : std::filesystem::path(given);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw Error("cannot be made (" + error.message() + ")", folder.string(),
-                "Choose another with --out");
-  const std::filesystem::path probe = folder / ".palpa-write-test";
-  const bool written = static_cast<bool>(std::ofstream(probe) << "x" << std::flush);
-  std::filesystem::remove(probe, error);
-  if (!written)
-    throw Error("cannot be written to", folder.string(),
-                "Choose another folder with --out, or correct its permissions");
+                    : fs::path(given);
+  if (const std::error_code problem = os::makeFolders(folder))
+    failFile("cannot be made", folder, problem, kInstead);
+  proveWritable(folder);
   return folder;
+}
+
+OutputFolder::OutputFolder(const std::string& given, const std::string& command)
+    : path_(makeOutputFolder(given, command)), has_older_session_(fs::exists(path_ / kEvidence)) {}
+
+OutputFolder::~OutputFolder() {
+  if (!kept_ && !has_older_session_ && !removedEmpty(path_ / kEvidence)) written_.keep();
 }
 
 }  // namespace palpa::session

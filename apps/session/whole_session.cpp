@@ -1,6 +1,7 @@
 #include "apps/session/whole_session.h"
 
 #include "anatomy/base/error.h"
+#include "apps/os/signals.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/palpation_session.h"
@@ -17,11 +18,14 @@ SessionLeft holdNeedleSession(SessionOptions options) {
   NeedleWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
-  const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
+  OutputFolder output(options.out, options.command);
+  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
+  const std::filesystem::path& folder = output.path();
   if (options.who == OperatorKind::person && options.demonstration)
     showDemonstration(options, world, folder);
   const SessionResult result = runNeedleSession(options, world, folder);
   writeOutcome(options, world, result, folder);
+  output.keep();
   deliverSession(options, folder);
   return {folder, result.quit};
 }
@@ -34,9 +38,12 @@ SessionLeft holdPalpation(SessionOptions options) {
   const PalpationWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
-  const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
+  OutputFolder output(options.out, options.command);
+  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
+  const std::filesystem::path& folder = output.path();
   const PalpationRun run = runPalpation(options, world, folder);
   writePalpationOutcome(options, world, run, folder);
+  output.keep();
   deliverSession(options, folder);
   return {folder, run.quit};
 }
@@ -51,9 +58,12 @@ SessionLeft holdSqueeze(SessionOptions options) {
                      "Choose window or offscreen");
   const SqueezeWorld world(options);
   checkTrainee(options);
-  const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
+  OutputFolder output(options.out, options.command);
+  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
+  const std::filesystem::path& folder = output.path();
   const SqueezeRun run = runSqueeze(options, world, folder);
   writeSqueezeOutcome(options, world, run, folder);
+  output.keep();
   deliverSession(options, folder);
   return {folder, run.quit};
 }
@@ -70,9 +80,12 @@ SessionLeft holdSearch(SessionOptions options) {
         "cannot be felt with a mouse", "--operator person",
         "Give a station with a haptic device (--station), or take --operator expert or novice");
   checkTrainee(options);
-  const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
+  OutputFolder output(options.out, options.command);
+  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
+  const std::filesystem::path& folder = output.path();
   const SearchRun run = runSearch(options, world, folder);
   writeSearchOutcome(options, world, run, folder);
+  output.keep();
   deliverSession(options, folder);
   return {folder, run.quit};
 }

@@ -1,5 +1,7 @@
 #include "apps/trial/trial_task.h"
 
+#include <algorithm>
+
 #include "anatomy/base/error.h"
 #include "apps/trial/trial_scene.h"
 
@@ -116,17 +118,20 @@ void TrialTask::startTrial(std::int64_t now_ns) {
   status_.notice.clear();
   since_ns_ = now_ns;
   const runtime::TrialHeader header = begin(now_ns);
+  start_ns_ = header.t_ns;
   status_.role = training::roleNamed(header.role);
   status_.force_feedback = header.force_feedback;
   bus_.task_to_recorder.push(header);
   report(now_ns, EventKind::start, "Trial " + std::to_string(status_.trial) + " starts");
 }
 
+/// It ends with the last tick that was judged; one that was ended before its first, as it began.
 void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_t now_ns) {
   const Conclusion end = conclude(outcome, reason);
   const std::string& name = training::nameOf(outcome);
   note({now_ns, status_.trial, name, reason.empty() ? end.sentence : reason, 0});
-  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, last_.t_ns, name, reason,
+  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, std::max(last_.t_ns, start_ns_), name,
+                                               reason,
                                                outcome == Outcome::voided ? "" : end.scores_json});
   picture("end", end.caption);
   status_.state = TrialState::ended;

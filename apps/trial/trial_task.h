@@ -97,6 +97,7 @@ class TrialTask : public runtime::Activity {
                warm_ns_ = -1;       ///< of the last trip, of the last tick with warm drives
   std::int64_t since_ns_ = 0;       ///< the current state began
   std::uint32_t presses_seen_ = 0;  ///< of the emergency stop
+  std::int64_t start_ns_ = 0;       ///< of the trial
   bool quit_ = false;
 };
 

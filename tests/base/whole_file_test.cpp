@@ -1,12 +1,31 @@
 #include "anatomy/base/whole_file.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <set>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "tests/support/files.h"
 
 namespace palpa {
 namespace {
+
+namespace fs = std::filesystem;
+
+std::set<std::string> namesIn(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
 
 TEST(WholeFile, IsThereWholeOrNotAtAll) {
   const auto folder = test::freshFolder("base", "whole");
@@ -32,6 +51,108 @@ TEST(WholeFile, NeverTakesThePlaceOfADatabase) {
   EXPECT_EQ(test::slurp(folder / "session.palpa"), evidence);
   std::ofstream(folder / "short.txt") << "SQLite";
   EXPECT_NO_THROW(writeWhole(folder / "short.txt", "text"));
+}
+
+/// Whoever may write into the folder lays links where the next files will be written.
+TEST(WholeFile, IsNeverWrittenThroughALink) {
+  const auto folder = test::freshFolder("base", "links");
+  std::ofstream(folder / "victim") << "not yours";
+  fs::create_symlink("victim", folder / "a.txt");
+  const std::string begins = ".a.txt.part-" + std::to_string(::getpid()) + "-";
+  for (int i = 1; i <= 60; ++i) fs::create_symlink("victim", folder / (begins + std::to_string(i)));
+  writeWhole(folder / "a.txt", "mine");
+  EXPECT_EQ(test::slurp(folder / "victim"), "not yours");
+  EXPECT_EQ(test::slurp(folder / "a.txt"), "mine");
+  EXPECT_FALSE(fs::is_symlink(folder / "a.txt")) << "the link itself gives way";
+}
+
+TEST(WholeFile, TakesNoFoldersAndNoDevicesPlace) {
+  const auto folder = test::freshFolder("base", "places");
+  fs::create_directory(folder / "sub");
+  fs::create_directory_symlink("sub", folder / "link");
+  for (const fs::path& place : {folder / "sub", folder / "link", folder / "sub" / ""})
+    EXPECT_THROW(writeWhole(place, "x"), Error) << place;
+  EXPECT_THROW(writeWhole("/dev/full", "x"), Error);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(namesIn(folder), (std::set<std::string>{"link", "sub"}));
+}
+
+/// In a process of its own, whose files may not grow.
+TEST(WholeFile, OneThatCannotBeWrittenToItsEndLeavesTheOldOne) {
+  const auto folder = test::freshFolder("base", "limit");
+  writeWhole(folder / "a.txt", "old");
+  const auto writeMore = [&] {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4096, 4096};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      writeWhole(folder / "a.txt", std::string(200'000, 'x'));
+    } catch (const Error& e) {
+      std::fprintf(stderr, "%s", e.what());
+      ::_exit(3);
+    }
+    ::_exit(0);
+  };
+  EXPECT_EXIT(writeMore(), ::testing::ExitedWithCode(3), "larger than a file may be here");
+  EXPECT_EQ(test::slurp(folder / "a.txt"), "old");
+  EXPECT_EQ(namesIn(folder), std::set<std::string>{"a.txt"});
+}
+
+TEST(WholeFile, WhatKilledProcessesLeftLongAgoIsRemoved) {
+  const auto folder = test::freshFolder("base", "forgotten");
+  const pid_t gone = ::fork();
+  if (gone == 0) ::_exit(0);
+  ::waitpid(gone, nullptr, 0);
+  const std::string begins = ".a.txt.part-";
+  const std::string old = begins + std::to_string(gone) + "-1", young = old + "1",
+                    living = begins + std::to_string(::getpid()) + "-999999";
+  for (const std::string& name : {old, young, living}) std::ofstream(folder / name) << "half";
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(48);
+  for (const std::string& name : {old, living}) fs::last_write_time(folder / name, long_ago);
+  writeWhole(folder / "a.txt", "whole");
+  EXPECT_EQ(namesIn(folder), (std::set<std::string>{"a.txt", young, living}));
+}
+
+TEST(WholeFile, ALongNameIsWrittenAsWell) {
+  const auto folder = test::freshFolder("base", "long");
+  const std::string name(250, 'n');
+  writeWhole(folder / name, "x", Lasts::no);
+  EXPECT_EQ(namesIn(folder), std::set<std::string>{name});
+  EXPECT_THROW(writeWhole(folder / std::string(300, 'n'), "x"), Error);
+}
+
+TEST(WrittenTogether, NewFilesOfACommandThatFailsAreGone) {
+  const auto folder = test::freshFolder("base", "together");
+  writeWhole(folder / "old", "1");
+  {
+    WrittenTogether written;
+    fs::create_directory(folder / "made");
+    WrittenTogether::note(folder / "made");
+    writeWhole(folder / "made/new", "2");
+    writeWhole(folder / "old", "2");
+  }
+  EXPECT_EQ(namesIn(folder), std::set<std::string>{"old"});
+  {
+    WrittenTogether written;
+    writeWhole(folder / "new", "3");
+    written.keep();
+    writeWhole(folder / "later", "4");
+  }
+  EXPECT_EQ(namesIn(folder), (std::set<std::string>{"later", "new", "old"}));
+}
+
+TEST(FileTrouble, HasWordsOfOurOwnForEachReason) {
+  std::set<std::string> words;
+  for (const int error : {ENOSPC, EDQUOT, EFBIG, EIO, EACCES, EROFS, EMFILE, ENFILE, ENOMEM,
+                          ENAMETOOLONG, ELOOP, ENOENT, ENOTDIR, EISDIR}) {
+    const FileTrouble trouble = fileTrouble(error);
+    EXPECT_NE(trouble.why, std::strerror(error));
+    EXPECT_EQ(trouble.why.find("error"), std::string::npos) << trouble.why;
+    EXPECT_FALSE(trouble.remedy.empty());
+    EXPECT_TRUE(words.insert(trouble.why).second) << trouble.why;
+  }
+  EXPECT_NE(fileTrouble(EMLINK).why.find(std::to_string(EMLINK)), std::string::npos);
 }
 
 TEST(ReadWhole, GivesEveryByteAndNothingWhereThereIsNoFile) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <optional>
 #include <random>
 
@@ -97,13 +98,14 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
 
 /// Interrupted in the middle; how the trial that was running ended then, or how the last before it
 /// did, where the signal came between two.
-void expectClosed(const std::vector<std::string>& more, const std::string& outcome) {
+void expectClosed(const std::vector<std::string>& more, const std::string& outcome,
+                  int signal = SIGINT, const fs::path& err = "/dev/null") {
   Folder here;
   const runtime::SteadyClock clock;
   std::vector<std::string> arguments =
       session({"--trials", "500", "--out", "A"});  // minutes of work
   arguments.insert(arguments.end(), more.begin(), more.end());
-  Running running(arguments, here.path());
+  Running running(arguments, here.path(), err);
   const fs::path file = here / "A/session.palpa";
   bool begun = false;
   while (!begun && !running.ended()) {
@@ -111,12 +113,13 @@ void expectClosed(const std::vector<std::string>& more, const std::string& outco
     begun = committed(file).value_or(0) > 0 && !record::SessionReader(file).trials().empty();
   }
   ASSERT_TRUE(begun);
-  EXPECT_EQ(running.interrupt(), 0);
+  EXPECT_EQ(running.interrupt(signal), 0);
   const record::SessionReader left(file);
   ASSERT_FALSE(left.trials().empty());
   EXPECT_LT(left.trials().size(), 500u);
   const record::RecordedTrial last = left.trials().back();
   EXPECT_TRUE(last.ended);
+  EXPECT_GE(last.length_s(), 0);
   if (last.end.reason == "Interrupted")
     EXPECT_EQ(last.end.outcome, outcome);
   else
@@ -126,6 +129,18 @@ void expectClosed(const std::vector<std::string>& more, const std::string& outco
 }
 
 TEST(Interrupt, ClosesASessionAsEscapeDoes) { expectClosed({}, "void"); }
+
+/// With a terminal that is gone whatever is said to it fails, as on a full disk.
+TEST(Interrupt, AClosedTerminalEndsASessionInOrder) {
+  expectClosed({}, "void", SIGHUP, "/dev/full");
+}
+
+TEST(Interrupt, SoDoTheOtherSignalsThatAskForAnEnd) {
+  for (const int signal : {SIGQUIT, SIGUSR1}) {
+    SCOPED_TRACE(signal);
+    expectClosed({}, "void", signal);
+  }
+}
 
 TEST(Interrupt, IsNoWayOutOfAnAssessment) { expectClosed({"--assess"}, "aborted"); }
 

@@ -40,6 +40,8 @@ void keepApart(const fs::path& folder) {
                          const fs::path& out, const fs::path& err, int fill) {
   // Fresh memory holds another byte in every run: what is read before it is written then differs.
   ::setenv("MALLOC_PERTURB_", std::to_string(fill).c_str(), 1);
+  for (const int asks : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2})
+    ::signal(asks, SIG_DFL);  // whatever runs the tests ignores
   redirect("/dev/null", STDIN_FILENO);
   redirect(out, STDOUT_FILENO);
   redirect(err, STDERR_FILENO);
@@ -89,9 +91,10 @@ bool Running::ended() {
   return child_ < 0;
 }
 
-int Running::interrupt() {
+int Running::interrupt(int signal) {
+  static_assert(SIGINT == 2);
   if (child_ < 0) return -1;
-  ::kill(child_, SIGINT);
+  ::kill(child_, signal);
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }

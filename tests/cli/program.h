@@ -29,8 +29,9 @@ class Running {
 
   bool ended();  ///< by itself
   void kill();   ///< with SIGKILL, and waits until it is gone
-  /// As Ctrl-C does, and waits for its end; its exit code, 128 + signal when that killed it
-  int interrupt();
+  /// With this signal (default: as Ctrl-C does), and waits for its end; its exit code, 128 + signal
+  /// when that killed it
+  int interrupt(int signal = 2);
 
  private:
   int child_ = -1;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "anatomy/base/error.h"
 #include "peer.h"
@@ -77,6 +78,40 @@ TEST(LocalSocket, WhatADeadSessionLeftIsTakenOver_ALivingOnesIsNot) {
   EXPECT_TRUE(Peer(path).connected());
   EXPECT_THROW(os::listenAt(path), Error);
   EXPECT_TRUE(Peer(path).connected()) << "the living one's socket was taken away";
+  ::close(living);
+}
+
+TEST(LocalSocket, WhatIsNoDeadSocketOfOursStays) {
+  const ShortFolder here;
+  const std::string file = here / "notes", link = here / "link", socket = here / "s.sock";
+  std::ofstream(file) << "a year's work";
+  ::close(os::listenAt(socket));
+  fs::create_symlink(socket, link);
+  for (const std::string& path : {file, link}) {
+    EXPECT_THROW(os::listenAt(path), Error) << path;
+    os::removeSocket(path);
+    EXPECT_TRUE(fs::exists(fs::symlink_status(path))) << path;
+  }
+  EXPECT_EQ(fs::file_size(file), 13u);
+  os::removeSocket(socket);
+  EXPECT_FALSE(fs::exists(socket));
+}
+
+/// Nobody answers, and more callers than the queue holds have come: its owner lives all the same.
+TEST(LocalSocket, ABusyOneIsNotTakenAway) {
+  const ShortFolder here;
+  const std::string path = here / "s.sock";
+  const int living = os::listenAt(path);
+  std::vector<int> callers;
+  while (callers.size() < 100)
+    if (const int caller = os::connectTo(path); caller >= 0)
+      callers.push_back(caller);
+    else
+      break;
+  EXPECT_LT(callers.size(), 100u) << "its queue is not full";
+  EXPECT_THROW(os::listenAt(path), Error);
+  EXPECT_TRUE(fs::exists(path));
+  for (const int caller : callers) ::close(caller);
   ::close(living);
 }
 

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
 
+#include "anatomy/base/error.h"
 #include "apps/os/file_access.h"
 #include "apps/os/file_lock.h"
 #include "tests/support/scratch_folder.h"
@@ -48,6 +50,33 @@ TEST(Files, APrivateOneIsTheUsersAloneAndKeepsWhatItHolds) {
   }
 }
 
+TEST(Files, NoneIsMadeThroughALink) {
+  const test::ScratchFolder folder("os-link");
+  fs::create_symlink("elsewhere", folder / "a");
+  EXPECT_EQ(createNew(folder / "a"), std::errc::file_exists);
+  EXPECT_TRUE(createPrivate(folder / "a"));
+  EXPECT_FALSE(fs::exists(folder / "elsewhere"));
+  write(folder / "elsewhere", "records on another disk");
+  EXPECT_FALSE(createPrivate(folder / "a")) << "a file that is there is its owner's choice";
+}
+
+TEST(Files, FoldersThatAreMadeAreTheUsersAlone_GivenOnesStay) {
+  const test::ScratchFolder folder("os-folders");
+  const mode_t mask = ::umask(022);
+  fs::create_directory(folder / "given");
+  const fs::perms before = fs::status(folder / "given").permissions();
+  EXPECT_FALSE(makeFolders(folder / "given/a/./b/"));
+  EXPECT_FALSE(createNew(folder / "given/a/b/c"));
+  ::umask(mask);
+  EXPECT_EQ(fs::status(folder / "given").permissions(), before);
+  EXPECT_NE(before, fs::perms::owner_all) << "or nothing is shown";
+  for (const char* made : {"given/a", "given/a/b"})
+    EXPECT_EQ(fs::status(folder / made).permissions(), fs::perms::owner_all) << made;
+  EXPECT_EQ(privacyOf(folder / "given/a/b/c"), Privacy::own);
+  EXPECT_FALSE(makeFolders(folder / "given/a/b")) << "again";
+  EXPECT_EQ(makeFolders(folder / "given/a/b/c/d"), std::errc::not_a_directory);
+}
+
 TEST(Files, WhatIsNotThereMayNotBeWritten) {
   const test::ScratchFolder folder("os-write");
   EXPECT_TRUE(mayWrite(folder.path()));
@@ -71,11 +100,11 @@ TEST(Files, ATemporaryFolderGoesWithAllThatIsInIt) {
 TEST(Files, AUsersFoldersFollowTheSettingsThenTheHome) {
   const Setting data("XDG_DATA_HOME", "/d"), state("XDG_STATE_HOME", "not/whole"),
       home("HOME", "/home/x");
-  EXPECT_EQ(dataFolder("."), "/d");
-  EXPECT_EQ(stateFolder("/tmp"), "/home/x/.local/state") << "a relative one does not count";
+  EXPECT_EQ(dataFolder(""), "/d");
+  EXPECT_EQ(stateFolder(""), "/home/x/.local/state") << "a relative one does not count";
   const Setting none("HOME", nullptr), unset("XDG_DATA_HOME", nullptr);
-  EXPECT_EQ(dataFolder("."), "./.local/share");
-  EXPECT_EQ(stateFolder("/tmp"), "/tmp/.local/state");
+  EXPECT_THROW(dataFolder("Set HOME"), UsageError) << "nothing in odd places";
+  EXPECT_THROW(stateFolder("Set HOME"), UsageError);
 }
 
 TEST(FileLock, OneHolderAtATime) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <atomic>
 
@@ -50,6 +51,61 @@ TEST(Interrupt, IsNotedAndTheOldHandlerComesBack) {
   EXPECT_EQ(old, 1);
   EXPECT_FALSE(InterruptNote().noted()) << "a new one begins anew";
   ::signal(SIGTERM, before);
+}
+
+TEST(Interrupt, AClosedTerminalAndTheOthersAreNoted) {
+  for (const int signal : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGTERM, SIGINT}) {
+    const auto before = ::signal(signal, SIG_DFL);
+    {
+      const InterruptNote note;
+      EXPECT_FALSE(note.noted());
+      ::raise(signal);
+      EXPECT_TRUE(note.noted()) << signal;
+    }
+    EXPECT_EQ(::signal(signal, before), SIG_DFL) << signal;
+  }
+}
+
+/// A terminal that closes sends its signal more than once.
+TEST(Interrupt, AClosedTerminalNeverKills) {
+  const auto before = ::signal(SIGHUP, SIG_DFL);
+  {
+    const InterruptNote note;
+    for (int i = 0; i < 3; ++i) ::raise(SIGHUP);
+    EXPECT_TRUE(note.noted());
+  }
+  ::signal(SIGHUP, before);
+}
+
+TEST(Interrupt, WhatNohupIgnoresStaysIgnored) {
+  const auto before = ::signal(SIGHUP, SIG_IGN);
+  {
+    const InterruptNote note;
+    ::raise(SIGHUP);
+    EXPECT_FALSE(note.noted());
+  }
+  EXPECT_EQ(::signal(SIGHUP, before), SIG_IGN);
+}
+
+TEST(Interrupt, OneWithinAnotherNotesTheSame) {
+  const InterruptNote outer(InterruptNote::Again::noted);
+  ::raise(SIGTERM);
+  {
+    const InterruptNote inner;
+    EXPECT_TRUE(inner.noted()) << "what was noted before it is not forgotten";
+  }
+  ::raise(SIGTERM);
+  EXPECT_TRUE(outer.noted());
+}
+
+TEST(Interrupt, AReaderWhoHasGoneAwayDoesNotKill) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ::close(ends[0]);
+  const InterruptNote note;
+  EXPECT_EQ(::write(ends[1], "x", 1), -1);
+  EXPECT_FALSE(note.noted());
+  ::close(ends[1]);
 }
 
 TEST(Interrupt, ASecondOneKills) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <limits>
 
@@ -95,6 +96,33 @@ TEST(SessionFile, ClosedSessionIsOnePlainFileThatNamesItself) {
   EXPECT_EQ(pragma("PRAGMA user_version"), 1);
   EXPECT_EQ(pragma("SELECT count(*) FROM ticks"), 2);
   sqlite3_close(db);
+}
+
+/// The process stopped in the middle of the second trial.
+TEST(SessionFile, ATrialThatDidNotEndLastsUntilItsLastTick) {
+  const fs::path file = freshFolder("unended") / "session.palpa";
+  SessionWriter writer(file, syntheticInfo());
+  writer.beginTrial({1, 0, 1, "scored", true, 1.7});
+  writer.endTrial({1, 90'000'000, "success", "", ""});
+  writer.beginTrial({2, 100'000'000, 2, "scored", true, 1.7});
+  writer.commit();
+  const auto length_s = [&] { return SessionReader(file).trials().at(1).length_s(); };
+  EXPECT_EQ(length_s(), 0) << "no tick yet: it has just begun";
+  writeTicks(writer, 0, 400);
+  EXPECT_NEAR(length_s(), 0.299, 1e-12);
+  EXPECT_NEAR(SessionReader(file).trials().at(0).length_s(), 0.09, 1e-12);
+}
+
+TEST(SessionFile, IsItsOwnersAlone) {
+  const fs::path file = freshFolder("private") / "session.palpa";
+  const mode_t mask = ::umask(022);
+  SessionWriter writer(file, syntheticInfo());
+  writeTicks(writer, 0, 400);
+  ::umask(mask);
+  for (const char* beside : {"", "-wal", "-shm"})
+    EXPECT_EQ(fs::status(file.string() + beside).permissions(),
+              fs::perms::owner_read | fs::perms::owner_write)
+        << beside;
 }
 
 TEST(SessionFile, CanBeReadWhileItIsWritten) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 #include "apps/os/file_lock.h"
@@ -25,16 +26,15 @@ PendingHold::~PendingHold() = default;
 
 PendingList::PendingList(fs::path folder) : folder_(std::move(folder)) {}
 
-fs::path PendingList::usualFolder() { return os::stateFolder("/tmp") / "palpa/pending"; }
+fs::path PendingList::usualFolder() {
+  return os::stateFolder("Set HOME, or XDG_STATE_HOME to a folder of yours") / "palpa/pending";
+}
 
 fs::path PendingList::noteOf(const std::string& uuid) const { return folder_ / (uuid + kSuffix); }
 
 void PendingList::note(const PendingSession& session) {
-  std::error_code problem;
-  fs::create_directories(folder_, problem);
-  if (problem)
-    throw Error("cannot be made (" + problem.message() + ")", folder_.string(),
-                "Make it writable, or set XDG_STATE_HOME to another folder");
+  if (const std::error_code problem = os::makeFolders(folder_))
+    failFile("cannot be made", folder_, problem, "Or set XDG_STATE_HOME to another folder");
   writeWhole(noteOf(session.uuid),
              fs::absolute(session.evidence).string() + "\n" + session.url + "\n");
 }

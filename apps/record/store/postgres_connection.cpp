@@ -16,13 +16,22 @@ std::string firstLine(const std::string& text) {
   return line.empty() ? "no reason given" : line;
 }
 
+/// No TLS there, a certificate that is not the server's, or none at hand to check it with.
+bool isAboutTls(const std::string& reason) {
+  return reason.find("not support SSL") != std::string::npos ||
+         reason.find("certificate") != std::string::npos;
+}
+
 bool isRefusal(const std::string& reason) {
-  return reason.find("password") != std::string::npos ||
+  return isAboutTls(reason) || reason.find("password") != std::string::npos ||
          reason.find("authentication") != std::string::npos ||
          reason.find("does not exist") != std::string::npos;
 }
 
 std::string remedyFor(const std::string& reason) {
+  if (isAboutTls(reason))
+    return "Beyond this computer the server needs TLS: put the certificate of who signs its own "
+           "into ~/.postgresql/root.crt, or name it: ?sslrootcert=FILE";
   if (reason.find("password") != std::string::npos ||
       reason.find("authentication") != std::string::npos)
     return "Check user and password (PGPASSWORD or ~/.pgpass)";
@@ -43,9 +52,10 @@ class PostgresConnection final : public SqlConnection {
     guarded([&] {
       const char* only_read =
           access == Access::read ? "&options=-c%20default_transaction_read_only%3Don" : "";
-      const bool has_options = url_.find('?') != std::string::npos;
+      const std::string safe = withEncryption(url_, serverDefaults());
+      const bool has_options = safe.find('?') != std::string::npos;
       connection_ = std::make_unique<pqxx::connection>(
-          url_ + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds +
+          safe + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds +
           "&tcp_user_timeout=" + kSilent_ms + "&client_encoding=UTF8&application_name=palpa" +
           only_read);
     });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "apps/record/store/records_address.h"
 
 namespace palpa::record {
 
@@ -78,9 +79,9 @@ class SqlTransaction {
 
 /// "postgresql://[user@]host[:port]/database" or the path of an SQLite file, which is made where
 /// there is none (readable by its owner only). A URL that holds a password is refused: it would end
-/// in station files and process lists; libpq finds it in PGPASSWORD or ~/.pgpass.
+/// in station files and process lists; libpq finds it in PGPASSWORD or ~/.pgpass. What is neither
+/// is refused, and so is a server beyond this computer without a checked certificate.
 std::unique_ptr<SqlConnection> connect(const std::string& url);
-bool isServer(const std::string& url);
 
 /// The same to read only: nothing is made, written or migrated, neither in the store nor, of a
 /// file, beside it. The file must exist and hold something.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "anatomy/base/file_trouble.h"
 #include "apps/os/file_access.h"
 #include "apps/record/sqlite.h"
 #include "apps/record/store/sql_connection.h"
@@ -17,8 +18,7 @@ constexpr int kWaitForOthers_ms = 20'000;          // eight stations that write 
 
 void makeFile(const std::string& file) {
   if (const std::error_code problem = os::createPrivate(file))
-    throw Error("cannot be opened for writing (" + problem.message() + ")", "records file " + file,
-                "Check that its folder exists and may be written");
+    failFile("cannot be opened for writing", "records file " + file, problem);
 }
 
 /// SQLite fills up what is missing of the last page and says nothing. With a log beside, the file

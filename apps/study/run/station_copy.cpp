@@ -3,9 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/os/file_access.h"
 #include "apps/record/store/delivery.h"
 
 namespace palpa::study {
@@ -76,11 +78,9 @@ void writeStudyCopy(const StudyCopy& copy, const fs::path& file) {
                                {"answer", i < copy.sent ? "" : a.answer},
                                {"answered_utc", a.answered_utc}});
   }
-  std::error_code problem;
-  fs::create_directories(file.parent_path(), problem);
-  if (problem)
-    throw Error("cannot be made (" + problem.message() + ")", file.parent_path().string(),
-                "Make it writable, or set XDG_STATE_HOME to another folder");
+  if (const std::error_code problem = os::makeFolders(file.parent_path()))
+    failFile("cannot be made", file.parent_path(), problem,
+             "Or set XDG_STATE_HOME to another folder");
   writeWhole(file, json.dump(1) + "\n");
 }
 
