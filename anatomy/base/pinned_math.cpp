@@ -43,7 +43,7 @@ double twoTo(std::int64_t power) {
 }
 
 double valueOf(const Power& p) {
-  if (p.power > -1021 && p.power < 1023) {
+  if (p.power > -960 && p.power < 1023) {  // no product below the normal numbers
     const double scale = p.value * twoTo(p.power);
     return scale + scale * p.share;
   }
