@@ -238,6 +238,8 @@ std::string usualRecords() {
   return (os::dataFolder(".") / "palpa/records.sqlite").string();
 }
 
+std::filesystem::path usualConsoleHome() { return os::dataFolder(".") / "palpa/console"; }
+
 std::string usualRecordsMade() {
   std::string url = usualRecords();
   makeFolderOf(url);

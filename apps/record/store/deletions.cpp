@@ -23,6 +23,12 @@ fs::path stateLists() {
 
 fs::path listBeside(const std::string& url) { return url + ".deletions.json"; }
 
+/// Evidence, which may have come back with a backup as well.
+bool isHere(const std::string& evidence) {
+  std::error_code none;
+  return fs::exists(evidence, none);
+}
+
 bool holds(const std::vector<DeletedPerson>& all, const DeletedPerson& one) {
   return std::any_of(all.begin(), all.end(), [&](const DeletedPerson& p) {
     return p.digest == one.digest && p.deleted_utc == one.deleted_utc;
@@ -65,7 +71,7 @@ bool deleteSessionRows(SqlConnection& connection, const std::string& session,
                        bool evidence_removed) {
   const SqlRows row = connection.query("SELECT evidence FROM sessions WHERE uuid=$1", {session});
   if (row.empty()) return false;
-  if (!evidence_removed)
+  if (!evidence_removed || isHere(row.text(0, 0)))
     connection.query(
         "INSERT INTO deleted_evidence(session,evidence) VALUES($1,$2) ON CONFLICT(session) DO "
         "NOTHING",
@@ -204,13 +210,19 @@ void Deletions::insert(const DeletionList& list) {
         "INSERT INTO deleted_sessions(session,deleted_utc,removed) VALUES($1,$2,0) ON "
         "CONFLICT(session) DO NOTHING",
         {session.uuid, session.deleted_utc});
-    if (session.removed) noteRemoved(session.uuid);
+    if (!session.removed) continue;
+    const SqlRows left = connection_.query("SELECT evidence FROM deleted_evidence WHERE session=$1",
+                                           {session.uuid});
+    if (left.empty() || !isHere(left.text(0, 0)))
+      noteRemoved(session.uuid);
+    else
+      connection_.query("UPDATE deleted_sessions SET removed=1 WHERE session=$1", {session.uuid});
   }
 }
 
 DeletedAgain Deletions::obey() {
-  DeletionList known = inTables();
   moveOldRows();
+  const DeletionList known = inTables();
   const DeletionList news = missing(known);
   DeletedAgain again;
   if (!news.people.empty() || !news.sessions.empty()) {

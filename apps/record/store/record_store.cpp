@@ -1,5 +1,6 @@
 #include "apps/record/store/record_store.h"
 
+#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <limits>
@@ -73,6 +74,16 @@ std::string whyNoPseudonym(const std::string& id) {
                 "digit";
 }
 
+bool mentions(std::string_view text, const std::string& id, bool strictly) {
+  const auto joins = [&](std::size_t at) {
+    const auto c = static_cast<unsigned char>(at < text.size() ? text[at] : ' ');
+    return std::isalnum(c) || (strictly && (c == '-' || c == '_'));
+  };
+  for (std::size_t at = text.find(id); at != std::string_view::npos; at = text.find(id, at + 1))
+    if ((at == 0 || !joins(at - 1)) && !joins(at + id.size())) return true;
+  return false;
+}
+
 RecordStore::RecordStore(std::unique_ptr<SqlConnection> connection)
     : connection_(std::move(connection)), deletions_(*connection_, "") {
   migrate(*connection_);
@@ -82,11 +93,12 @@ RecordStore::RecordStore(const std::string& url)
     : connection_(connect(url)), deletions_(*connection_, url) {
   migrate(*connection_);
   const DeletedAgain again = deletions_.obey();
-  if (again.people + again.sessions > 0)
-    std::fprintf(stderr, "Deleted again from the %s, into which a backup had brought them: %s, %s\n",
-                 place().c_str(),
-                 counted(static_cast<std::size_t>(again.people), "deleted trainee").c_str(),
-                 counted(static_cast<std::size_t>(again.sessions), "session").c_str());
+  if (again.people + again.sessions == 0) return;
+  std::fprintf(stderr, "Deleted again from the %s, into which a backup had brought them: %s, %s%s\n",
+               place().c_str(),
+               counted(static_cast<std::size_t>(again.people), "deleted trainee").c_str(),
+               counted(static_cast<std::size_t>(again.sessions), "session").c_str(),
+               evidenceToDelete().empty() ? "" : "; their evidence: palpa records delete --left");
 }
 
 void RecordStore::addTrainee(const Trainee& trainee) {
@@ -140,8 +152,10 @@ std::vector<Trainee> RecordStore::overdue(const std::string& date) {
 
 /// A pseudonym that was given anew brings nothing back from before its deletion.
 void RecordStore::requireNotDeleted(const StoredSession& s) {
-  const bool named = deletions_.isDeleted(s.uuid);
-  if (!named && deletions_.lastDeletion(sha256(s.trainee)) < s.started_utc) return;
+  if (!deletions_.isDeleted(s.uuid)) {
+    const std::string last = deletions_.lastDeletion(sha256(s.trainee));
+    if (last.empty() || last < s.started_utc) return;
+  }
   throw PersonDeleted("was deleted on request after this session had begun; the trial is refused",
                       "trainee " + s.trainee, "Remove its evidence, too: " + s.evidence);
 }

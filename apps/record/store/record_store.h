@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/record/store/deletions.h"
@@ -148,5 +149,9 @@ class RecordStore {
 
 /// Why a pseudonym cannot be one; empty: it can.
 std::string whyNoPseudonym(const std::string& id);
+
+/// Whether a text names this pseudonym, as a word: no letter or digit beside it; `strictly`: nothing
+/// that a longer pseudonym could go on with.
+bool mentions(std::string_view text, const std::string& id, bool strictly = false);
 
 }  // namespace palpa::record
