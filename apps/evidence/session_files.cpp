@@ -102,7 +102,7 @@ bool hasTextOf(const fs::path& folder, const std::string& trainee) {
 
 /// A block of a study lies in the trainee's own folder, TRAINEE/BLOCK.
 void removeFolders(const fs::path& folder, const std::string& trainee, SessionRemoval* removal) {
-  removal->kept = filesIn(folder);
+  if (removal->troubles.empty()) removal->kept = filesIn(folder);
   removeIfEmpty(folder, &removal->troubles);
   if (!trainee.empty() && folder.parent_path().filename() == trainee)
     removeIfEmpty(folder.parent_path(), &removal->troubles);
@@ -138,10 +138,10 @@ SessionRemoval removeSession(const fs::path& evidence, const EvidenceOwner& owne
   if (removal.end == RemovalEnd::absent && has_folder && hasTextOf(folder, owner.trainee))
     removal.end = RemovalEnd::removed;
   const bool owned = removal.end == RemovalEnd::removed;
-  if (owned) removeEvidence(evidence, &removal);
-  if (!has_folder) return removal;
-  removeBeside(folder, owner, owned, &removal);
-  if (owned) removeFolders(folder, owner.trainee, &removal);
+  if (has_folder) removeBeside(folder, owner, owned, &removal);
+  // Last: as long as something else is left, it says whose that is
+  if (owned && removal.troubles.empty()) removeEvidence(evidence, &removal);
+  if (owned && has_folder) removeFolders(folder, owner.trainee, &removal);
   return removal;
 }
 

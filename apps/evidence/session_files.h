@@ -14,7 +14,7 @@ struct EvidenceOwner {
 EvidenceOwner ownerOf(const std::filesystem::path& evidence);
 
 enum class RemovalEnd {
-  removed,    ///< nothing of the session is here any more
+  removed,    ///< nothing of the session is here any more, but for what `troubles` names
   absent,     ///< no evidence is in this place of this computer
   another,    ///< another session's evidence is in its place: that stays
   unreadable  ///< it does not say whose it is: that stays
@@ -24,7 +24,7 @@ struct SessionRemoval {
   RemovalEnd end = RemovalEnd::absent;
   std::size_t files = 0;                     ///< removed
   std::vector<std::string> troubles;         ///< what could not be removed and why, in words
-  std::vector<std::filesystem::path> kept;   ///< files in its folder that no session wrote
+  std::vector<std::filesystem::path> kept;   ///< what stays in its folder: no session wrote it
 };
 
 /// Removes what a session left: its evidence, report, table, pictures, films, demonstration; its
