@@ -29,10 +29,6 @@ struct ConsoleOptions {
   bool open = true;
 };
 
-fs::path usualHome() {
-  return os::dataFolder("Set HOME, or say where sessions are kept: --home DIR") / "palpa/console";
-}
-
 /// The first line; a file that others may read gives its token away.
 std::string tokenIn(const std::string& file) {
   if (file.empty()) return "";
@@ -57,7 +53,7 @@ void openInBrowser(const std::string& url) {
 
 console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   console::ConsoleSettings s;
-  s.place.home = fs::absolute(o.home.empty() ? usualHome() : fs::path(o.home));
+  s.place.home = fs::absolute(o.home.empty() ? usualConsoleHome() : fs::path(o.home));
   s.place.pages = station::assetFile("console");
   s.place.records = o.records;
   s.place.sockets = os::socketFolder();
