@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
-#include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "calibration/camera_model.h"
 
@@ -21,7 +21,7 @@ constexpr std::uintmax_t kLargestFile = 4 << 20;  // bytes; a real one has a few
 constexpr int kLargestSide = 1 << 30;  // px; what is too large to be a picture is refused later
 constexpr const char* kRemedy =
     "Give a camera calibration: OpenCV's YAML or XML, or our JSON ('palpa calibrate camera' writes "
-    "one).";
+    "one)";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
   throw Error(what, file.string(), kRemedy);
@@ -117,12 +117,16 @@ CameraModel fromOpenCv(const std::string& text, const fs::path& file) {
   return camera;
 }
 
-CameraModel fromJson(const std::string& text, const fs::path& name) {
-  const json root = parsedOrDiscarded(text);
-  if (!root.is_object()) refuse(name, "is damaged: not a JSON object");
-  const JsonFile file(root, name.string(), kRemedy);
-  if (file.text("type") != "camera_model") file.refuse("type", "must be \"camera_model\"");
-  file.needVersion(kVersion);
+JsonFile ownFile(const std::string& text, const fs::path& name) {
+  JsonFile file = JsonFile::ofText(text, name.string(), kRemedy);
+  if (!file.json().is_object()) refuse(name, "is damaged: it holds no fields");
+  if (file.has("type") && file.text("type") != "camera_model")
+    file.refuse("type", "must be \"camera_model\"");
+  return file;
+}
+
+CameraModel modelIn(const JsonFile& file, const fs::path& name) {
+  file.text("type");
   if (file.text("unit") != "px") file.refuse("unit", "must be \"px\"");
   CameraModel camera;
   camera.width = file.integer("width", 0, kLargestSide);
@@ -136,11 +140,22 @@ CameraModel fromJson(const std::string& text, const fs::path& name) {
   return camera;
 }
 
-/// OpenCV logs parse errors to standard error before throwing; ours are clearer.
+CameraModel fromJson(const std::string& text, const fs::path& name) {
+  const JsonFile file = readOwnFile([&] { return ownFile(text, name); });
+  needKind(file, "camera", kVersion);
+  return readOwnFile([&] { return modelIn(file, name); });
+}
+
+/// OpenCV tells of parse errors on standard error before it throws; ours are clearer.
 class QuietOpenCv {
  public:
-  QuietOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
-  ~QuietOpenCv() { cv::utils::logging::setLogLevel(before_); }
+  QuietOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {
+    cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
+  }
+  ~QuietOpenCv() {
+    cv::redirectError(nullptr);
+    cv::utils::logging::setLogLevel(before_);
+  }
   QuietOpenCv(const QuietOpenCv&) = delete;
   QuietOpenCv& operator=(const QuietOpenCv&) = delete;
 
@@ -152,7 +167,7 @@ CameraModel parse(const std::string& text, const fs::path& file) {
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   if (start == std::string::npos) refuse(file, "is empty");
   if (text.find('\0') != std::string::npos) refuse(file, "is damaged: binary data inside");
-  if (text[start] == '{') return readOwnFile([&] { return fromJson(text, file); });
+  if (text[start] == '{') return fromJson(text, file);
   if (text.compare(start, 5, "%YAML") != 0 && text.compare(start, 5, "<?xml") != 0)
     refuse(file, "is no calibration: it must start with %YAML, <?xml or {");
   // OpenCV 4.6 reads past the end of XML that is cut within its first line.
@@ -165,7 +180,7 @@ CameraModel parse(const std::string& text, const fs::path& file) {
   } catch (const Error&) {
     throw;
   } catch (const std::exception&) {  // cv::Exception, bad_alloc: whatever a damaged file provokes
-    refuse(file, "is damaged or cut short: OpenCV cannot parse it");
+    refuse(file, "is damaged or cut short: it cannot be read to its end");
   }
 }
 

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
 #include "anatomy/base/whole_file.h"
@@ -100,8 +101,12 @@ void readInLandmarks(const JsonFile& file, ExpertPath* path) {
     file.refuse(kInL.line_to, "makes a line of no length");
 }
 
-ExpertPath pathIn(const JsonFile& file) {
+void needFormat(const JsonFile& file) {
   if (file.text("format") != kFormat) file.refuse("format", "is not that of an expert path");
+}
+
+ExpertPath pathIn(const JsonFile& file) {
+  needFormat(file);
   constexpr int kMost = 1'000'000;
   ExpertPath path;
   path.axes = file.needVersion(kPathVersion) == 1 ? PathAxes::landmarks : PathAxes::own_line;
@@ -124,6 +129,13 @@ ExpertPath pathIn(const JsonFile& file) {
 ExpertPath readExpertPath(const std::filesystem::path& file) {
   const std::optional<std::string> text = readWhole(file);
   if (!text) throw Error("cannot be read", file.string(), "Check the path, or calibrate first");
+  const JsonFile json = readOwnFile([&] {
+    JsonFile whole = JsonFile::ofText(*text, file.string(), kRemedy);
+    if (whole.has("format")) needFormat(whole);
+    if (whole.has("version")) whole.needVersion(kPathVersion);
+    return whole;
+  });
+  refuseUnknownFields(json, "expert_path");  // a recording's copy is taken as it is
   return parseExpertPath(*text, file.string());
 }
 

@@ -1,15 +1,14 @@
 #include "calibration/teaching_line.h"
 
-#include <cmath>
-
 #include "anatomy/base/error.h"
+#include "anatomy/base/pinned_math.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
 namespace {
 
 constexpr double kShortest = 0.005;  // m
-const double kParallel = std::sin(2 * kDegree);
+const double kParallel = pinned::sin(2 * kDegree);
 
 }  // namespace
 

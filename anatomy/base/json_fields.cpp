@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/json_text.h"
+#include "anatomy/base/nearest_word.h"
 
 namespace palpa {
 namespace {
@@ -27,10 +28,7 @@ nlohmann::json parseJson(const std::string& text, const std::string& file) {
     return parseJson(text, kDeepest,
                      [&] { throw UsageError("is nested too deep", file, "Correct the file"); });
   } catch (const nlohmann::json::exception& e) {
-    std::string words = e.what();
-    for (char& c : words)
-      if (static_cast<unsigned char>(c) < 32) c = ' ';
-    throw UsageError("is not valid JSON (" + words + ")", file,
+    throw UsageError("is not valid JSON (" + whyNoJson(text, e) + ")", file,
                      "Correct the file at the place named");
   }
 }
@@ -55,8 +53,16 @@ const nlohmann::json* JsonFields::find(const std::string& field) {
 
 const nlohmann::json& JsonFields::need(const std::string& field) {
   const nlohmann::json* found = find(field);
-  if (!found) refuse(field, "is missing");
+  if (!found) refuse(field, "is missing" + meantBy(field));
   return *found;
+}
+
+std::string JsonFields::meantBy(const std::string& field) const {
+  std::vector<std::string> others;
+  for (const auto& [key, ignored] : object_.items())
+    if (!asked_.count(key)) others.push_back(printable(key));
+  const std::optional<std::string> other = nearestWord(field, others);
+  return other ? "; did you mean it by \"" + *other + "\"?" : "";
 }
 
 std::string JsonFields::text(const std::string& field) {
@@ -108,13 +114,14 @@ std::array<double, 3> JsonFields::triple(const std::string& field, double most) 
 }
 
 void JsonFields::done() const {
-  for (const auto& [key, value] : object_.items())
-    if (!asked_.count(key) && !(path_.empty() && key == kSchema && value.is_string())) {
-      std::string known;
-      for (const std::string& name : asked_) known += (known.empty() ? "" : ", ") + name;
-      throw UsageError("field \"" + pathOf(printable(key)) + "\" is unknown", file_,
-                       "Known here: " + known);
-    }
+  const std::vector<std::string> known(asked_.begin(), asked_.end());
+  for (const auto& [key, value] : object_.items()) {
+    if (asked_.count(key) || (path_.empty() && key == kSchema && value.is_string())) continue;
+    std::string all;
+    for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+    throw UsageError("field \"" + pathOf(printable(key)) + "\" is unknown" + didYouMean(key, known),
+                     file_, "Known here: " + all);
+  }
 }
 
 }  // namespace palpa

@@ -11,7 +11,7 @@ namespace palpa {
 
 /// An object of a JSON file that nobody vouches for: every field is asked for once, `done` refuses
 /// what nobody asked for, a text "$schema" of the whole file apart: an editor's. Messages name file
-/// and field ("entries[3].unit").
+/// and field ("entries[3].unit"), and what was probably meant by another name.
 class JsonFields {
  public:
   JsonFields(const nlohmann::json& object, std::string file, std::string path);
@@ -33,6 +33,9 @@ class JsonFields {
   void done() const;
 
  private:
+  /// By which field that nobody has asked for a missing one was probably meant; empty: by none.
+  std::string meantBy(const std::string& field) const;
+
   const nlohmann::json& object_;
   std::string file_, path_;
   std::set<std::string> asked_;

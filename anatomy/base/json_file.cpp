@@ -43,8 +43,8 @@ JsonFile JsonFile::ofText(std::string_view text, std::string name, std::string r
         text, kDeepestFile, [&] { throw UsageError("is nested too deep", name, "Restore it"); });
     return {std::move(json), std::move(name), std::move(remedy)};
   } catch (const nlohmann::json::exception& e) {
-    throw UsageError(std::string("is not valid JSON (") + e.what() + ")", name,
-                     "Restore it or correct the line named");
+    throw UsageError("is not valid JSON (" + whyNoJson(text, e) + ")", name,
+                     "Restore it or correct it there");
   }
 }
 

@@ -40,6 +40,7 @@ class JsonFile {
 
   const nlohmann::json& json() const { return json_; }
   const std::string& name() const { return name_; }
+  const std::string& remedy() const { return remedy_; }
   /// Field "version" is 1 to `newest`: files of later programs are refused.
   int needVersion(int newest) const;
   [[noreturn]] void refuse(const std::string& path, const std::string& what) const;

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_fields.h"
 #include "anatomy/base/whole_file.h"
 #include "anatomy/geometry/pose.h"
@@ -163,6 +164,7 @@ ImportMap parseImportMap(const std::string& json, const std::string& where,
   if (fields.text("format") != "palpa-import-map")
     fields.refuse("format", "is not \"palpa-import-map\"");
   if (fields.numberOr("version", 0, 0, 1e9) != 1) fields.refuse("version", "is not 1");
+  refuseUnknownFields(JsonFile(root, where), "patient_map");
   ImportMap map;
   map.name = fields.text("name");
   const std::string side = fields.text("side");

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
 #include "anatomy/parametric/build.h"
@@ -56,10 +57,12 @@ Population populationIn(const JsonFile& file) {
 }  // namespace
 
 Population readPopulation(const std::string& reference_json) {
-  return readOwnFile([&] {
-    return populationIn(JsonFile(std::filesystem::path(reference_json),
-                                 "Compare with assets/patients/reference.json"));
+  const JsonFile file = readOwnFile([&] {
+    return JsonFile(std::filesystem::path(reference_json),
+                    "Compare with assets/patients/reference.json");
   });
+  refuseUnknownFields(file, "population");
+  return readOwnFile([&] { return populationIn(file); });
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include "anatomy/base/bytes.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 
@@ -37,6 +38,7 @@ Seeds readSeeds(const std::filesystem::path& file) {
   if (!json.is_object() || json.value("format", nlohmann::json()) != "palpa-seeds" ||
       !json.contains("points") || !json["points"].is_object())
     fail("it is no file of seed points");
+  refuseUnknownFields(JsonFile(json, file.string()), "seeds");
   if (json.value("unit", nlohmann::json()) != "mm") fail("its unit is not mm");
   Seeds seeds;
   for (const auto& [name, point] : json["points"].items()) {

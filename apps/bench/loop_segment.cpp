@@ -55,8 +55,9 @@ Onlookers::~Onlookers() {
 void Onlookers::show(scene::Image picture) {
   next_ns_ = clock_.now() + kPicture;
   port_.offer(std::move(picture));
-  log_.addCurve(
-      R"({"kind":"curve","t_s":[1.02,1.04,1.06],"force_N":[0.51,0.52,0.53],"depth_mm":[12.1,12.2,12.3]})");
+  log_.addPassing(
+      R"({"kind":"curve","t_s":[1.02,1.04,1.06],"force_N":[0.51,0.52,0.53],"depth_mm":[12.1,12.2,12.3]})",
+      1);
 }
 
 void Onlookers::look() {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/record/session_file.h"
@@ -145,6 +146,7 @@ SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>
   }
   if (task.empty()) return all;
   const JsonFile named(task);
+  refuseUnknownFields(named, "task");
   const station::NamedPlan plan = station::readPlan(named);
   if (plan.empty())
     throw UsageError("names no parts (\"subtasks\")", task.string(),

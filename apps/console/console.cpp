@@ -59,6 +59,23 @@ std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
   return hosts;
 }
 
+/// The server's own thread, ended in any case: an error on the way, as of a full disk, is to be
+/// said.
+class Serving {
+ public:
+  explicit Serving(WebServer& server) : server_(server), thread_([&server] { server.serve(); }) {}
+  ~Serving() {
+    server_.end();
+    thread_.join();
+  }
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+
+ private:
+  WebServer& server_;
+  std::thread thread_;
+};
+
 void addPages(WebServer& server, const Console& c) {
   server.Get("/", [&c](const httplib::Request&, httplib::Response& r) {
     sendFile(r, c.place.pages / "index.html", mediaTypeOf(".html"));
@@ -85,6 +102,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
     throw UsageError(
         "needs a token", "--listen " + s.address,
         "Others can reach this address: give a file that holds a token with --token-file");
+  os::shareMemoryPools();
   prepare(s.place);
   OnlyOne only(s.place.home);
   if (!s.station.empty()) chooseStation(s.place, s.station);
@@ -99,7 +117,6 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
     throw Error("cannot be opened for listening",
                 s.address + (s.port ? ", port " + std::to_string(s.port) : ""),
                 "Perhaps another program uses it: choose another with --port");
-  server.widen();
   guard.answerTo(hostsOf(s, port));
   Console console(s.place, guard, s.tone);
   addPages(server, console);
@@ -109,10 +126,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   addLiveRoutes(server, console);
   addReplayRoutes(server, console);
   checkHealth(console);
-  std::thread serving([&] {
-    os::giveWay();
-    server.listen_after_bind();
-  });
+  const Serving serving(server);
   const std::string url = "http://" + bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) +
                           ":" + std::to_string(port) + "/";
   only.announce(url);
@@ -120,9 +134,8 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   while (!interrupt.noted()) {
     runtime::rest(kRound);
     console.sessions.look();
+    server.noteTurnedAway();
   }
-  server.end();
-  serving.join();
 }
 
 }  // namespace palpa::console

@@ -27,6 +27,9 @@ struct GuardVerdict {
   std::string words;  ///< else why not
 };
 
+/// "/api/sessions/ID/stop": the emergency stop, before which no limit of writes stands.
+bool isStopPath(const std::string& path);
+
 /// Refuses foreign hosts (a page elsewhere whose name was bent to this address), foreign origins,
 /// writes without the page's key or with a number that was used before, floods, and everybody who
 /// has not given the token where one is asked for. Any thread.

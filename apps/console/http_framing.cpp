@@ -4,13 +4,13 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/os/socket.h"
 
 namespace palpa::console {
 namespace {
-
-constexpr int kWrite_ms = 10'000;
 
 bool readable(int socket, std::chrono::milliseconds time) {
   return os::ready(socket, os::Wait::to_read,
@@ -25,7 +25,8 @@ void assign(const std::optional<os::Address>& address, std::string* ip, int* por
 
 }  // namespace
 
-DeadlineStream::DeadlineStream(int socket) : socket_(socket) {
+DeadlineStream::DeadlineStream(int socket, std::string begun)
+    : socket_(socket), buffer_(std::move(begun)) {
   int port = 0;
   get_remote_ip_and_port(remote_, port);
 }
@@ -33,6 +34,13 @@ DeadlineStream::DeadlineStream(int socket) : socket_(socket) {
 void DeadlineStream::begin(Clock::time_point deadline, std::size_t most) {
   deadline_ = deadline;
   most_ = most;
+}
+
+void DeadlineStream::answerWithin(std::chrono::milliseconds whole,
+                                  std::chrono::milliseconds stalled) {
+  answered_ =
+      whole == std::chrono::milliseconds::max() ? Clock::time_point::max() : Clock::now() + whole;
+  stalled_ = stalled;
 }
 
 bool DeadlineStream::waits(std::chrono::milliseconds time) const {
@@ -46,7 +54,9 @@ bool DeadlineStream::is_readable() const {
 }
 
 /// False as soon as the other side is gone: a stream of pictures ends with its reader.
-bool DeadlineStream::is_writable() const { return os::readerTakes(socket_, kWrite_ms); }
+bool DeadlineStream::is_writable() const {
+  return Clock::now() < answered_ && os::readerTakes(socket_, static_cast<int>(stalled_.count()));
+}
 
 bool DeadlineStream::fill() {
   if (most_ == 0 || !is_readable()) {
@@ -74,7 +84,7 @@ ssize_t DeadlineStream::read(char* to, std::size_t size) {
 
 ssize_t DeadlineStream::write(const char* from, std::size_t size) {
   if (!is_writable()) return -1;
-  const std::optional<std::size_t> count = os::sendWaiting(socket_, from, size);
+  const std::optional<std::size_t> count = os::sendSome(socket_, from, size);
   return count ? static_cast<ssize_t>(*count) : -1;
 }
 
@@ -98,7 +108,74 @@ std::optional<std::size_t> lengthIn(const std::string& text) {
                                : std::min<std::size_t>(std::stoull(text), kLongestBody + 1);
 }
 
+constexpr std::string_view kLineEnd = "\r\n";
+
+/// The lines of a head without their ends, without the empty one.
+std::vector<std::string_view> linesOf(std::string_view head) {
+  std::vector<std::string_view> lines;
+  for (std::size_t at = 0, end; at < head.size(); at = end + kLineEnd.size()) {
+    end = std::min(head.find(kLineEnd, at), head.size());
+    if (end > at) lines.push_back(head.substr(at, end - at));
+  }
+  return lines;
+}
+
+bool isBlank(char c) { return c == ' ' || c == '\t'; }
+
+bool standsInAName(unsigned char c) {
+  constexpr std::string_view kMarks = "!#$%&'*+-.^_`|~";
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+         kMarks.find(static_cast<char>(c)) != std::string_view::npos;
+}
+
+bool isControl(unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; }
+
+bool isNamed(std::string_view name, std::string_view wanted) {
+  return std::equal(name.begin(), name.end(), wanted.begin(), wanted.end(), [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  });
+}
+
+const char* whyNoHeader(std::string_view line) {
+  if (isBlank(line.front())) return "a header is folded over two lines";
+  const std::size_t colon = line.find(':');
+  if (colon == std::string_view::npos || colon == 0) return "a header has no name";
+  if (isBlank(line[colon - 1])) return "a header has a blank before its colon";
+  return std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(colon), standsInAName)
+             ? nullptr
+             : "a header's name is none";
+}
+
 }  // namespace
+
+std::size_t endOfHead(std::string_view bytes) {
+  const std::size_t end = bytes.find("\r\n\r\n");
+  return end == std::string_view::npos ? end : end + 2 * kLineEnd.size();
+}
+
+std::optional<std::size_t> bodyLengthIn(std::string_view head) {
+  std::optional<std::size_t> length = 0;
+  int stated = 0;
+  for (const std::string_view line : linesOf(head)) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos || !isNamed(line.substr(0, colon), "content-length"))
+      continue;
+    std::string_view value = line.substr(colon + 1);
+    while (!value.empty() && isBlank(value.front())) value.remove_prefix(1);
+    length = ++stated == 1 ? lengthIn(std::string(value)) : std::nullopt;
+  }
+  return length;
+}
+
+GuardVerdict judgeHead(std::string_view head) {
+  const std::vector<std::string_view> lines = linesOf(head);
+  for (const std::string_view line : lines)
+    if (std::any_of(line.begin(), line.end(), isControl))
+      return {400, "has a control character in its head"};
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    if (const char* why = whyNoHeader(lines[i])) return {400, why};
+  return {};
+}
 
 GuardVerdict judgeFraming(const httplib::Request& r) {
   for (const char* once :

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "apps/console/guard.h"
 #include "apps/console/http.h"
@@ -10,14 +12,17 @@
 namespace palpa::console {
 
 /// A connection whose request must be complete by a moment and within a size, however slowly its
-/// bytes come; answers may take as long as they are taken off.
+/// bytes come, and whose answer must be taken off by another moment.
 class DeadlineStream final : public httplib::Stream {
  public:
   using Clock = runtime::ServingClock;
-  explicit DeadlineStream(int socket);
+  /// `begun`: what has been read of its request already.
+  explicit DeadlineStream(int socket, std::string begun = "");
 
-  /// From here a request may be read, until `deadline` and up to `most` bytes.
+  /// From here a request may be read, until `deadline` and up to `most` bytes that have not come.
   void begin(Clock::time_point deadline, std::size_t most);
+  /// How long its answer may take, and of this how long nothing of it need be taken off.
+  void answerWithin(std::chrono::milliseconds whole, std::chrono::milliseconds stalled);
   /// The next request begins within this time.
   bool waits(std::chrono::milliseconds time) const;
 
@@ -29,14 +34,16 @@ class DeadlineStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   socket_t socket() const override { return socket_; }
   const std::string& remote() const { return remote_; }
-  bool cut() const { return cut_; }    ///< it was too slow or too long
-  bool left() const { return left_; }  ///< the other side ended it
+  bool cut() const { return cut_; }                         ///< it was too slow or too long
+  bool left() const { return left_; }                       ///< the other side ended it
+  std::string rest() const { return buffer_.substr(at_); }  ///< of the next request
 
  private:
   bool fill();
   const int socket_;
   std::string remote_;
-  Clock::time_point deadline_;
+  Clock::time_point deadline_, answered_ = Clock::time_point::max();
+  std::chrono::milliseconds stalled_{10'000};
   std::size_t most_ = 0;  ///< bytes that may still come
   std::string buffer_;
   std::size_t at_ = 0;
@@ -44,6 +51,16 @@ class DeadlineStream final : public httplib::Stream {
 };
 
 inline constexpr std::size_t kLongestBody = 64u << 10;
+
+/// Where a request's head ends: behind its empty line; npos: not yet.
+std::size_t endOfHead(std::string_view bytes);
+/// The length of the body that a head states; 0 where it states none, nothing where it is no number
+/// or stands there twice.
+std::optional<std::size_t> bodyLengthIn(std::string_view head);
+/// A head as it came, before anything is made of it: a line that is folded, a blank before the
+/// colon, a line end of one character and a control character are read differently by different
+/// programs, so that one request could hide in another. All are refused.
+GuardVerdict judgeHead(std::string_view head);
 
 /// Whether a request is framed as the pages frame theirs: a POST with a body of stated, small
 /// length, a GET without one, nothing packed, nothing in parts. All else is refused before a body

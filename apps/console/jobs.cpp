@@ -67,6 +67,7 @@ std::string Jobs::add(JobRequest request) {
 
 nlohmann::json Jobs::ask(JobRequest request) {
   const std::string key = request.key;
+  const bool pageless = request.page.empty();
   std::string id;
   {
     const std::lock_guard lock(mutex_);
@@ -74,7 +75,9 @@ nlohmann::json Jobs::ask(JobRequest request) {
     id = found != asked_.end() ? found->second : asked_[key] = addLocked(std::move(request));
   }
   nlohmann::json told = one(id);
-  if (told["state"] == "failed") {
+  const bool page_gone = told["state"] == "done" && !pageless && told["page"] == "";
+  if (page_gone) told["state"] = "working";  // with somebody who was deleted: asked again, it is made
+  if (page_gone || told["state"] == "failed") {
     const std::lock_guard lock(mutex_);
     asked_.erase(key);
   }

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <fstream>
 
+#include "anatomy/base/plain_text.h"
+
 namespace palpa::console {
 namespace {
 
 constexpr std::streamoff kTail = 16 << 10;
+constexpr std::size_t kLongestLine = 1000;
 
 }  // namespace
 
@@ -19,7 +22,7 @@ std::vector<std::string> lastLines(const std::filesystem::path& log, std::size_t
   for (std::string line; std::getline(file, line);) {
     if (const std::size_t anew = line.rfind('\r'); anew != std::string::npos)
       line.erase(0, anew + 1);
-    if (!line.empty()) lines.push_back(line);
+    if (!line.empty()) lines.push_back(plainText(line, kLongestLine));
   }
   if (lines.size() > most)
     lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(most));

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::seconds kWatched{3};
 constexpr std::chrono::milliseconds kTryAgain{100};
-constexpr int kLook_ms = 50, kTakes_ms = 1000;
+constexpr int kLook_ms = 50, kTakes_ms = 1000, kConfirmed_ms = 300;
 
 bool sendAll(int socket, const std::string& bytes) {
   for (std::size_t sent = 0; sent < bytes.size();) {
@@ -145,6 +145,21 @@ bool SessionLink::send(const std::string& command) {
   if (!connected_ || over_) return false;
   commands_.push_back(command);
   return true;
+}
+
+SessionLink::Stopped SessionLink::stop() {
+  const int socket = os::connectTo(live::stopSocketOf(path_));
+  const std::string press = live::encoded(live::FrameKind::stop, "");
+  bool confirmed = false;
+  if (socket >= 0) {
+    char answer[64];
+    confirmed = os::sendSome(socket, press.data(), press.size()) == press.size() &&
+                os::ready(socket, os::Wait::to_read, kConfirmed_ms) &&
+                os::receiveSome(socket, answer, sizeof answer).value_or(0) > 0;
+    os::closeSocket(socket);
+  }
+  if (confirmed) return Stopped::yes;
+  return send("{\"command\":\"stop\"}") || socket >= 0 ? Stopped::unconfirmed : Stopped::nobody;
 }
 
 void SessionLink::close(const std::string& last) {

@@ -40,6 +40,11 @@ class SessionLink {
   Picture picture(std::uint64_t after, std::chrono::milliseconds patience);
   /// False: nobody is there to hear it.
   bool send(const std::string& command);
+  enum class Stopped { yes, unconfirmed, nobody };
+  /// The emergency stop, over a connection of its own: before everything that waits to be sent, and
+  /// without this link's thread. Waits for the session's word at most a third of a second; where
+  /// that does not come it is sent with the other requests as well.
+  Stopped stop();
   /// The session has ended: `last` becomes the log's last entry.
   void close(const std::string& last);
   bool hasReported() const;  ///< it has said something

@@ -168,10 +168,27 @@ std::vector<std::string> argumentsOf(const Console& c, const SessionWish& wish) 
   return a;
 }
 
+/// Nothing here waits for a file, a database or another request.
+void stopNow(Console& c, const std::string& id, httplib::Response& response) {
+  const auto link = c.sessions.linkForStop(id);
+  switch (link ? link->stop() : SessionLink::Stopped::nobody) {
+    case SessionLink::Stopped::yes:
+      return answer(response, json{{"confirmed", true}}, 202);
+    case SessionLink::Stopped::unconfirmed:
+      return refuse(response, 504,
+                    "the session was told to stop and has not confirmed it: use the stop at the "
+                    "station itself");
+    case SessionLink::Stopped::nobody:
+      return refuse(response, 409, "the session is not running (any more)");
+  }
+}
+
 void command(Console& c, const std::string& id, const httplib::Request& request,
              httplib::Response& response) {
   bodyOf(request);
-  live::parseSteering(request.body);  // refused here what the session would refuse
+  // Refused here what the session would refuse.
+  if (live::parseSteering(request.body).command == trial::UserCommand::emergency_stop)
+    return stopNow(c, id, response);
   const auto link = c.sessions.link(id);
   if (!link || !link->send(request.body))
     return refuse(response, 409, "the session is not running (any more)");
@@ -202,6 +219,9 @@ void addSessionRoutes(WebServer& server, Console& c) {
   server.Post(
       R"(/api/sessions/([A-Za-z0-9_-]{1,64})/command)",
       [&c](const httplib::Request& q, httplib::Response& r) { command(c, q.matches[1], q, r); });
+  server.Post(
+      R"(/api/sessions/([A-Za-z0-9_-]{1,64})/stop)",
+      [&c](const httplib::Request& q, httplib::Response& r) { stopNow(c, q.matches[1], r); });
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/file/([A-Za-z0-9_.-]{1,80}))",
              [&c](const httplib::Request& q, httplib::Response& r) {
                const std::string name = q.matches[2];

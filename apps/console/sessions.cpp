@@ -146,9 +146,15 @@ void Sessions::find() {
   for (const auto& entry : fs::directory_iterator(place_.sessions(), none)) {
     std::string id = entry.path().filename().string();
     const os::ProcessId process = processOf(factsOf(entry.path()));
-    if (isId(id) && os::runs(process))
-      running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
+    if (isId(id) && os::runs(process)) connect(id, process);
   }
+}
+
+void Sessions::connect(const std::string& id, os::ProcessId process) {
+  auto link = std::make_shared<SessionLink>(socketOf(id));
+  running_[id] = {process, link, false};
+  const std::lock_guard lock(links_mutex_);
+  links_[id] = std::move(link);
 }
 
 std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> arguments) {
@@ -173,7 +179,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   facts["pid"] = process.pid;
   facts["began"] = process.began;
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
-  running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
+  connect(id, process);
   return id;
 }
 
@@ -255,6 +261,12 @@ std::shared_ptr<SessionLink> Sessions::link(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = running_.find(id);
   return found == running_.end() ? nullptr : found->second.link;
+}
+
+std::shared_ptr<SessionLink> Sessions::linkForStop(const std::string& id) const {
+  const std::lock_guard lock(links_mutex_);
+  const auto found = links_.find(id);
+  return found == links_.end() ? nullptr : found->second;
 }
 
 bool Sessions::oneRuns() {

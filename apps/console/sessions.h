@@ -51,6 +51,8 @@ class Sessions {
   std::filesystem::path shown(const std::string& id) const;
   /// Of a session that runs, or ran since the console began; null otherwise.
   std::shared_ptr<SessionLink> link(const std::string& id);
+  /// The same without a look at files or processes: an emergency stop waits for neither.
+  std::shared_ptr<SessionLink> linkForStop(const std::string& id) const;
   bool oneRuns();
   /// Looks whether the running ones have ended; called now and then.
   void look();
@@ -62,6 +64,7 @@ class Sessions {
     bool over = false;
   };
   void find();
+  void connect(const std::string& id, os::ProcessId process);
   nlohmann::json described(const std::string& id, const std::filesystem::path& folder);
   std::string stateOf(const std::string& id, const std::filesystem::path& folder);
   std::string socketOf(const std::string& id) const;
@@ -69,6 +72,8 @@ class Sessions {
   const ConsolePlace& place_;
   std::mutex mutex_;
   std::map<std::string, Running> running_;
+  mutable std::mutex links_mutex_;  ///< held for a moment only
+  std::map<std::string, std::shared_ptr<SessionLink>> links_;
 };
 
 }  // namespace palpa::console

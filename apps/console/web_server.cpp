@@ -13,34 +13,19 @@ namespace palpa::console {
 namespace {
 
 using Clock = DeadlineStream::Clock;
-constexpr std::chrono::milliseconds kRequestWithin{10'000}, kIdle{5'000};
-constexpr std::chrono::milliseconds kCrowdedRequestWithin{2'000},
-    kCrowdedIdle{250};  // where half the places are taken: who says nothing makes room
-constexpr int kKnocking = 512;
-constexpr std::size_t kLongestRequest = 128u << 10;
-constexpr std::chrono::milliseconds kLinger{500};
-constexpr int kRequestsAConnection = 1000, kThreadsToRefuse = 8;
-
-/// A pool whose threads give way to the rest of the computer.
-class LowPriorityPool final : public httplib::TaskQueue {
- public:
-  LowPriorityPool() : pool_(WebServer::kMostConnections + kThreadsToRefuse) {}
-  Enqueued enqueue(std::function<void()> work) override {
-    return pool_.enqueue([work = std::move(work)] {
-      thread_local const bool gave = (os::giveWay(), true);
-      (void)gave;
-      work();
-    });
-  }
-  void shutdown() override { pool_.shutdown(); }
-
- private:
-  httplib::ThreadPool pool_;
-};
+using namespace std::chrono_literals;
+constexpr std::chrono::milliseconds kBodyWithin = 10s, kCrowdedBodyWithin = 2s,
+                                    kAnswerWithin = 120s, kStalled = 10s, kStopAnswered = 100ms,
+                                    kLinger = 500ms;
+constexpr int kKnocking = 512, kRequestsAConnection = 1000;
+constexpr std::size_t kLongestRequest = 128u << 10, kMostLater = 1000;
 
 /// The request that this thread is at.
 struct RequestState {
   std::string remote;
+  DeadlineStream* stream = nullptr;
+  GuardVerdict head;      ///< of its head as it came
+  bool is_stop = false;   ///< on the thread for emergency stops
   bool admitted = false;  ///< framing and guard let it pass; its body is read then
   bool answered = false;
   bool noted = false;    ///< a refusal, in words
@@ -104,14 +89,27 @@ GuardedRequest askedOf(const httplib::Request& r) {
           r.get_header_value("X-Palpa-Write")};
 }
 
-constexpr char kFull[] =
-    "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\nRetry-After: "
-    "5\r\n\r\n";
-
 }  // namespace
 
-WebServer::WebServer(Guard& guard, Refusals& refusals) : guard_(guard), refusals_(refusals) {
-  new_task_queue = [] { return new LowPriorityPool; };
+WebServer::WebServer(Guard& guard, Refusals& refusals)
+    : guard_(guard),
+      refusals_(refusals),
+      lobby_({[this](std::unique_ptr<Caller> caller) {
+                if (threads_.take(caller)) return;
+                turnAway(*caller);
+                countAway();
+              },
+              [this](std::unique_ptr<Caller> caller) {
+                if (threads_.takeStop(caller)) return;
+                turnAway(*caller);
+                countAway();
+              },
+              [this](const std::string& remote) {
+                noteLater(remote, "-", "-", 408, "a request was too slow or too long");
+              },
+              [this] { countAway(); }}),
+      threads_([this](std::unique_ptr<Caller> caller) { answer(std::move(caller)); },
+               [this](std::unique_ptr<Caller> caller) { answerStop(std::move(caller)); }) {
   set_payload_max_length(kLongestBody);
   // Not the library's SO_REUSEPORT: another console would share the port, and its pages.
   set_socket_options([](socket_t socket) { os::reuseAddress(socket); });
@@ -141,21 +139,86 @@ WebServer::WebServer(Guard& guard, Refusals& refusals) : guard_(guard), refusals
   });
 }
 
-void WebServer::end() {
-  ending_.store(true);
-  stop();
+WebServer::~WebServer() {
+  end();
+  threads_.end();
+  if (const socket_t listener = svr_sock_.exchange(-1); listener >= 0) os::closeSocket(listener);
 }
 
-void WebServer::widen() { os::widenBacklog(svr_sock_.load(), kKnocking); }
+void WebServer::serve() {
+  const int listener = svr_sock_.load();
+  os::widenBacklog(listener, kKnocking);
+  os::neverWait(listener);
+  lobby_.run(listener);
+  threads_.end();
+}
+
+void WebServer::end() {
+  ending_.store(true);
+  lobby_.end();
+}
+
+bool WebServer::enterStream() {
+  const std::lock_guard lock(streams_mutex_);
+  int all = 0;
+  for (const auto& [remote, count] : streams_) all += count;
+  const auto own = streams_.find(turn.remote);
+  if (all >= kMostStreams || (own != streams_.end() && own->second >= kMostStreamsOfOne))
+    return false;
+  ++streams_[turn.remote];
+  turn.stream->answerWithin(std::chrono::milliseconds::max(), kStalled);
+  return true;
+}
+
+void WebServer::leaveStream() {
+  const std::lock_guard lock(streams_mutex_);
+  if (const auto own = streams_.find(turn.remote); own != streams_.end() && --own->second <= 0)
+    streams_.erase(own);
+}
+
+void WebServer::countAway() {
+  const std::lock_guard lock(later_mutex_);
+  ++away_;
+}
+
+void WebServer::noteLater(const std::string& remote, const std::string& method,
+                          const std::string& path, int status, const std::string& words) {
+  const std::lock_guard lock(later_mutex_);
+  if (later_.size() < kMostLater) later_.push_back({remote, method, path, status, words});
+}
+
+void WebServer::noteTurnedAway() {
+  std::vector<Later> later;
+  std::size_t away = 0;
+  {
+    const std::lock_guard lock(later_mutex_);
+    later.swap(later_);
+    std::swap(away, away_);
+  }
+  for (const Later& one : later)
+    refusals_.note(one.remote, one.method, one.path, one.status, one.words);
+  if (away > 0)
+    refusals_.note("-", "-", "-", 503, "too many connections (" + std::to_string(away) + ")");
+}
+
+/// Of an emergency stop later: it waits for no file.
+void WebServer::note(const std::string& method, const std::string& path, int status,
+                     const std::string& words) {
+  if (turn.is_stop)
+    noteLater(turn.remote, method, path, status, words);
+  else
+    refusals_.note(turn.remote, method, path, status, words);
+}
 
 httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& request,
                                                   httplib::Response& response) {
-  GuardVerdict verdict = judgeFraming(request);
+  GuardVerdict verdict = turn.head;
+  if (verdict.status == 200) verdict = judgeFraming(request);
   if (verdict.status == 200) verdict = guard_.judge(askedOf(request));
   turn.admitted = verdict.status == 200;
   if (turn.admitted) return HandlerResponse::Unhandled;
   turn.noted = true;
-  refusals_.note(request.remote_addr, request.method, request.path, verdict.status, verdict.words);
+  note(request.method, request.path, verdict.status, verdict.words);
   refuse(response, verdict.status, verdict.words);
   return HandlerResponse::Handled;
 }
@@ -167,8 +230,7 @@ void WebServer::finish(const httplib::Request& request, httplib::Response& respo
   const bool refused =
       response.status >= 400 && response.status != 409 && (response.status != 404 || turn.nowhere);
   if (refused && !turn.noted)
-    refusals_.note(turn.remote, request.method, request.path, response.status,
-                   wordsFor(response.status));
+    note(request.method, request.path, response.status, wordsFor(response.status));
   turn.closes = response.status >= 400 &&
                 (!turn.admitted || response.status == 400 || response.status == 413);
   if (!turn.closes) return;
@@ -177,38 +239,50 @@ void WebServer::finish(const httplib::Request& request, httplib::Response& respo
   response.set_header("Connection", "close");
 }
 
-bool WebServer::process_and_close_socket(socket_t socket) {
-  if (connections_.fetch_add(1) < kMostConnections) {
-    DeadlineStream stream(socket);
-    serve(stream);
-  } else {
-    os::sendSome(socket, kFull, sizeof kFull - 1);
-    refusals_.note("-", "-", "-", 503, "too many connections");
+/// One request; true: another may come over this connection.
+bool WebServer::process(DeadlineStream& stream, Caller& caller) {
+  const auto whole = [](httplib::Request& request) {
+    request.ranges.clear();  // parts are refused; the refusal is not an answer in parts either
+    request.headers.erase("Accept-Encoding");  // packing costs more than a near network gains
+  };
+  bool closed = false;
+  const bool last = ++caller.answered >= kRequestsAConnection;
+  const bool processed = processRequest(stream, last, closed, whole);
+  // The library has a bound of its own for a line: neither answered nor ended by the other side.
+  if (stream.cut() || !(processed || turn.answered || stream.left())) {
+    note("-", "-", 408, "a request was too slow or too long");
+    return false;
   }
-  connections_.fetch_sub(1);
-  os::endBoth(socket);
-  os::closeSocket(socket);
-  return true;
+  return processed && !closed && !last && !ending();
 }
 
-void WebServer::serve(DeadlineStream& stream) {
-  for (int count = 1; count <= kRequestsAConnection && !ending(); ++count) {
-    if (!stream.waits(crowded() ? kCrowdedIdle : kIdle)) return;
-    stream.begin(Clock::now() + (crowded() ? kCrowdedRequestWithin : kRequestWithin),
-                 kLongestRequest);
-    bool closed = false;
-    turn = {.remote = stream.remote()};
-    const auto whole = [](httplib::Request& request) {
-      request.ranges.clear();  // parts are refused; the refusal is not an answer in parts either
-      request.headers.erase("Accept-Encoding");  // packing costs more than a near network gains
-    };
-    const bool processed = processRequest(stream, count == kRequestsAConnection, closed, whole);
-    // The library has a bound of its own for a line: neither answered nor ended by the other side.
-    if (stream.cut() || !(processed || turn.answered || stream.left()))
-      return refusals_.note(turn.remote, "-", "-", 408, "a request was too slow or too long");
-    if (!processed || closed) return;
-    if (turn.closes) return linger(stream.socket());
-  }
+void WebServer::answer(std::unique_ptr<Caller> caller) {
+  const GuardVerdict head =
+      judgeHead(std::string_view(caller->said).substr(0, endOfHead(caller->said)));
+  DeadlineStream stream(caller->socket, std::exchange(caller->said, ""));
+  stream.begin(Clock::now() + (threads_.crowded() ? kCrowdedBodyWithin : kBodyWithin),
+               kLongestRequest);
+  stream.answerWithin(kAnswerWithin, kStalled);
+  turn = {.remote = caller->remote, .stream = &stream, .head = head};
+  const bool more = process(stream, *caller);
+  if (turn.closes) return linger(caller->socket);
+  if (!more) return;
+  caller->said = stream.rest();
+  lobby_.comeBack(std::move(caller));
+}
+
+/// The same, without anything to wait for: all of it is here, and an answer that is not taken off
+/// is none.
+void WebServer::answerStop(std::unique_ptr<Caller> caller) {
+  const GuardVerdict head =
+      judgeHead(std::string_view(caller->said).substr(0, endOfHead(caller->said)));
+  DeadlineStream stream(caller->socket, std::exchange(caller->said, ""));
+  stream.begin(Clock::now() + kStopAnswered, 0);
+  stream.answerWithin(std::chrono::milliseconds::max(), kStopAnswered);
+  turn = {.remote = caller->remote, .stream = &stream, .head = head, .is_stop = true};
+  if (!process(stream, *caller) || turn.closes) return;
+  caller->said = stream.rest();
+  lobby_.comeBack(std::move(caller));
 }
 
 const char* mediaTypeOf(const std::string& name) {

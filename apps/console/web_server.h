@@ -2,45 +2,69 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/console/guard.h"
 #include "apps/console/httplib_server.h"
+#include "apps/console/lobby.h"
+#include "apps/console/request_threads.h"
 
 namespace palpa::console {
 
 /// The HTTP server: limits on connections, sizes and time before a request is looked at; framing
 /// and guard before its body is read; safe headers on every answer. What is refused is noted, and
 /// ends its connection: what may be left of its body is no next request. Its threads give way to
-/// all others.
+/// all others, but for the lobby and the one for emergency stops, which wait for no file either.
 class WebServer final : public HttplibServer {
  public:
   WebServer(Guard& guard, Refusals& refusals);
+  ~WebServer() override;
 
-  /// A stream (events, pictures) is let in: at most kMostStreams at once.
-  bool enterStream() { return streams_.fetch_add(1) < kMostStreams || (leaveStream(), false); }
-  void leaveStream() { streams_.fetch_sub(1); }
+  /// A stream (events, pictures) is let in: at most kMostStreams at once, kMostStreamsOfOne of one
+  /// address. Within a request; until `leaveStream` within the same.
+  bool enterStream();
+  void leaveStream();
   /// The server is ending: streams shall.
   bool ending() const { return ending_.load(); }
+  /// Once it is bound: answers until `end`; on the caller's thread.
+  void serve();
   void end();
-  /// Once it is bound: many may knock at once, and are told to wait rather than left before the
-  /// door.
-  void widen();
+  /// Writes down what was turned away since; now and then.
+  void noteTurnedAway();
 
-  static constexpr int kMostConnections = 96, kMostStreams = 24;
+  static constexpr int kMostStreams = 24, kMostStreamsOfOne = 12;
 
  private:
-  bool process_and_close_socket(socket_t socket) override;
-  void serve(class DeadlineStream& stream);
+  void answer(std::unique_ptr<Caller> caller);
+  void answerStop(std::unique_ptr<Caller> caller);
+  bool process(class DeadlineStream& stream, Caller& caller);
   void finish(const httplib::Request& request, httplib::Response& response);
-  bool crowded() const { return connections_.load() > kMostConnections / 2; }
   HandlerResponse admit(const httplib::Request& request, httplib::Response& response);
+  void note(const std::string& method, const std::string& path, int status,
+            const std::string& words);
+  void countAway();
+  void noteLater(const std::string& remote, const std::string& method, const std::string& path,
+                 int status, const std::string& words);
 
   Guard& guard_;
   Refusals& refusals_;
-  std::atomic<int> connections_{0}, streams_{0};
+  std::mutex streams_mutex_;
+  std::map<std::string, int> streams_;  ///< of each address
   std::atomic<bool> ending_{false};
+  struct Later {
+    std::string remote, method, path;
+    int status = 0;
+    std::string words;
+  };
+  std::mutex later_mutex_;
+  std::vector<Later> later_;  ///< to be noted by a thread that may wait for a file
+  std::size_t away_ = 0;      ///< how many had to go
+  Lobby lobby_;
+  RequestThreads threads_;  ///< last: they use the rest
 };
 
 /// Of a file, by its ending.

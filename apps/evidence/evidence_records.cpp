@@ -136,8 +136,9 @@ EvidenceRecords recordsOf(const std::filesystem::path& evidence) {
   try {
     records.session = sessionIn(reader, evidence);
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("the session's description is damaged (") + e.what() + ")",
-                evidence.string(), "Restore the file from a backup");
+    throw Error(
+        "the session's description is damaged (" + whyNoJson(reader.info().session_json, e) + ")",
+        evidence.string(), "Restore the file from a backup");
   }
   const Figures figures = figuresIn(reader, evidence);
   for (const record::RecordedTrial& t : reader.trials()) {
@@ -216,8 +217,9 @@ progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
   try {
     t.condition = conditionOf(stored, std::isfinite(t.metric("total")));
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("a session's description is damaged (") + e.what() + ")",
-                "session " + stored.session.uuid, "Restore the records from a backup");
+    throw Error(
+        "a session's description is damaged (" + whyNoJson(stored.session.facts_json, e) + ")",
+        "session " + stored.session.uuid, "Restore the records from a backup");
   }
   return t;
 }

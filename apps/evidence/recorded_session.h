@@ -12,11 +12,20 @@
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/assess/needle/trial_sampler.h"
+#include "apps/evidence/likeness.h"
 #include "apps/record/session_file.h"
 #include "apps/task_needle/task_file.h"
 #include "calibration/expert_path.h"
 
 namespace palpa::evidence {
+
+using NeedleSamples = std::vector<assess::TrialSample>;
+
+/// Calls `visit` with every trial of a needle session and all its judged ticks, in A: one pass over
+/// the record, with one trial's ticks in memory. Throws Error.
+void eachNeedleTrial(
+    const record::SessionReader& reader, const Pose& X_DA,
+    const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit);
 
 /// A session as its evidence tells it; needs nothing but the file.
 class RecordedSession {
@@ -32,10 +41,11 @@ class RecordedSession {
   const anatomy::SurfaceQuery& query() const { return *query_; }
   const std::string& trainee() const { return trainee_; }  ///< pseudonym of who performed
   const std::vector<record::RecordedTrial>& trials() const { return trials_; }
-  using Samples = std::vector<assess::TrialSample>;
-  /// Calls `visit` with every trial and all its judged ticks, in A: one pass over the record.
+  using Samples = NeedleSamples;
   void eachTrial(
-      const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const;
+      const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const {
+    eachNeedleTrial(*reader_, X_DA_, visit);
+  }
   bool hasGoal() const { return task_.goal.has_value(); }  ///< else the vein, by an expert path
   /// The trial scored again, from the evidence alone: of a task with a goal of its own success,
   /// time and course. Throws Error when no expert path was recorded.
@@ -55,8 +65,13 @@ class RecordedSession {
 
 /// Outcome of running every recorded tick again.
 struct ReplayCheck {
-  std::int64_t ticks = 0, different = 0, first_difference = -1;
+  std::int64_t ticks = 0;
+  std::int64_t different = 0;  ///< not the same bits; from the next keyframe on, its state counts
+  std::int64_t changed = 0;    ///< of these: by more than rounding
+  std::int64_t first_difference = -1, first_change = -1;  ///< number of the tick
+  double largest = 0;     ///< of the differences by rounding; N, N m, m
   std::int64_t gaps = 0;  ///< ticks missing in the record; the state is then taken from a keyframe
+  Likeness likeness() const;  ///< of the forces
 };
 /// `floors`: of a search, by number; null where there is none.
 ReplayCheck replayTicks(

@@ -54,20 +54,30 @@ Engine engineOf(const record::SessionReader& reader) {
   return training::engineNamed(name).value_or(Engine::needle);
 }
 
+void eachPalpation(const record::SessionReader& reader,
+                   const std::function<void(const record::RecordedTrial&,
+                                            task_palpation::PalpationListener&)>& visit) {
+  task_palpation::PalpationListener listener(reader.info().tick_config);
+  record::walkTrials(
+      reader, reader.trials(),
+      {.begin =
+           [&](const record::RecordedTrial& trial) {
+             listener.begin(static_cast<std::uint32_t>(trial.header.trial));
+           },
+       .tick = [&](const haptics::FlightRecord& record) { listener.add(record); },
+       .finish = [&](const record::RecordedTrial& trial) { visit(trial, listener); }});
+}
+
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
   const task_palpation::Scoring scoring =
       task_palpation::scoringOf(JsonFile::ofText(reader.info().task_json, "the recorded task"));
   const bool simulated = fieldOf(reader.info().session_json, "simulated", false, "its session");
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedPalpation> trials;
-  task_palpation::PalpationListener listener(reader.info().tick_config);
-  Said said;
-  const auto begin = [&](const record::RecordedTrial& trial) {
-    said = saidIn(events, trial.header.trial);
-    listener.begin(static_cast<std::uint32_t>(trial.header.trial));
-  };
-  const auto finish = [&](const record::RecordedTrial& trial) {
+  eachPalpation(reader, [&](const record::RecordedTrial& trial,
+                            task_palpation::PalpationListener& listener) {
     const runtime::TrialHeader& header = trial.header;
+    const Said said = saidIn(events, header.trial);
     for (const runtime::Event& grade : said.grades) {
       const trial::Grade told = trial::gradeOf(grade.text);
       if (grade.value >= 1 && grade.value <= static_cast<double>(listener.marks().size()))
@@ -83,9 +93,7 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
     trials.push_back(
         {trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
                                         listener.samples(), listener.marks())});
-  };
-  const auto tick = [&](const haptics::FlightRecord& record) { listener.add(record); };
-  record::walkTrials(reader, reader.trials(), {begin, tick, finish});
+  });
   return trials;
 }
 

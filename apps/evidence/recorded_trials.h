@@ -11,6 +11,12 @@
 
 namespace palpa::evidence {
 
+/// Calls `visit` with every trial of a palpation session and what was felt and marked in it, not
+/// graded yet: one pass over the record, with one trial's touches in memory. Throws Error.
+void eachPalpation(const record::SessionReader& reader,
+                   const std::function<void(const record::RecordedTrial&,
+                                            task_palpation::PalpationListener&)>& visit);
+
 /// A palpation as its evidence tells it, judged again.
 struct RecordedPalpation {
   record::RecordedTrial recorded;

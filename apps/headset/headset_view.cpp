@@ -66,8 +66,12 @@ ar::GlBinding bindingOf(const scene::NativeContext& native) {
 
 HeadsetView::HeadsetView(const anatomy::Patient& patient, HeadsetViewSetup setup)
     : setup_(std::move(setup)),
-      context_(scene::makeGlContext(scene::Display::offscreen, 64, 64, "Palpa, headset")) {
-  headset_ = ar::openHeadset(bindingOf(context_->native()));
+      drawing_(new Drawing{
+          scene::makeGlContext(scene::Display::offscreen, 64, 64, "Palpa, headset"), nullptr}) {
+  ar::GlBinding gl = bindingOf(drawing_->context->native());
+  gl.owner = drawing_;
+  headset_ = ar::openHeadset(gl, setup_.patience);
+  drawing_->context->makeCurrent();
   addView(patient);
 }
 
@@ -87,17 +91,11 @@ void HeadsetView::addView(const anatomy::Patient& patient) {
   layout.see_through = headset_->blend() != ar::Blend::opaque;
   layout.force_colours = setup_.force_colours;
   layout.skin_deflection = setup_.skin_deflection;
-  view_ = std::make_unique<scene::SceneView>(*context_, patient, layout);
-}
-
-HeadsetView::~HeadsetView() {
-  context_->makeCurrent();
-  headset_.reset();
+  drawing_->view = std::make_unique<scene::SceneView>(*drawing_->context, patient, layout);
 }
 
 bool HeadsetView::wait(bool may_place) {
   if (headset_->state() == ar::HeadsetState::lost) return false;
-  context_->makeCurrent();
   const std::optional<ar::HeadsetFrame> frame = headset_->begin();
   if (!frame) return false;
   frame_ = *frame;
@@ -132,11 +130,11 @@ void HeadsetView::show(const scene::SceneState& state) {
     seen.eyes = eyes;
     seen.tip_covariance_A.reset();  // of the camera's overlay
     seen.hud.overlay.clear();
-    view_->show(seen);
+    drawing_->view->show(seen);
   }
-  context_->makeCurrent();
+  drawing_->context->makeCurrent();
   const ar::Headset::Draw copy = [&](std::size_t eye, const ar::EyeTexture& picture) {
-    view_->copyEye(eye, {picture.texture, picture.format, picture.width, picture.height});
+    drawing_->view->copyEye(eye, {picture.texture, picture.format, picture.width, picture.height});
   };
   headset_->end(draw ? copy : ar::Headset::Draw());
   frames_ += draw;

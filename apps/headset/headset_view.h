@@ -36,6 +36,7 @@ struct HeadsetViewSetup {
   scene::ForceColours force_colours = scene::ForceColours::paper;
   bool skin_deflection = false;
   bool inside = true;  ///< what lies under the skin is drawn
+  ar::HeadsetPatience patience = {};
 };
 
 /// A headset that shows the scene: the patient lies before the person (again whenever they ask for
@@ -45,7 +46,6 @@ class HeadsetView final : public scene::HeadDisplay {
  public:
   /// Throws Error where there is no headset.
   HeadsetView(const anatomy::Patient& patient, HeadsetViewSetup setup);
-  ~HeadsetView() override;
 
   bool wait(bool may_place) override;
   void show(const scene::SceneState& state) override;
@@ -55,17 +55,24 @@ class HeadsetView final : public scene::HeadDisplay {
   /// Called once a frame
   void onHeld(std::function<void(const HeldController&)> action) { held_ = std::move(action); }
   std::uint64_t frames() const { return frames_; }  ///< shown
+  int silences() const { return headset_->silences(); }
 
  private:
   std::size_t hand() const { return setup_.left_handed ? 0 : 1; }
   void reportHeld() const;
   void addView(const anatomy::Patient& patient);
 
+  /// What a runtime that hangs with the context keeps.
+  struct Drawing {
+    std::unique_ptr<scene::GlContextProvider> context;
+    std::unique_ptr<scene::SceneView> view;
+    ~Drawing() { context->makeCurrent(); }
+  };
+
   HeadsetViewSetup setup_;
-  std::unique_ptr<scene::GlContextProvider> context_;
-  std::unique_ptr<ar::Headset> headset_;
-  std::unique_ptr<scene::SceneView> view_;
-  int width_ = 0, height_ = 0;  ///< of one eye's half of the view
+  std::shared_ptr<Drawing> drawing_;
+  std::unique_ptr<ar::Headset> headset_;  // goes before what it draws with
+  int width_ = 0, height_ = 0;            ///< of one eye's half of the view
   ar::HeadsetFrame frame_;
   bool placed_ = false, asked_ = false;  ///< asked_: to be placed anew, as soon as that may be
   std::function<void(const HeldController&)> held_;

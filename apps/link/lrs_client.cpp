@@ -2,10 +2,15 @@
 
 #include <httplib.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <utility>
 
 #include "anatomy/base/error.h"
+#include "apps/link/bounded_client.h"
+#include "apps/link/exchange_watch.h"
+#include "apps/os/socket.h"
 
 namespace palpa::link {
 namespace {
@@ -112,6 +117,10 @@ Login loginFor(const std::string& host, const std::string& user) {
 namespace {
 
 constexpr char kVersionHeader[] = "X-Experience-API-Version", kVersion[] = "1.0.3";
+// A body in pieces says the length of each: more bytes than it holds
+constexpr std::size_t kLongestBytes = 2 * LrsClient::kLongestAnswer;
+constexpr char kTooLong[] = "the answer is too long (at most 1 MB)",
+               kTooSlow[] = "the answer did not end within the time allowed";
 
 std::string inWords(httplib::Error error) {
   switch (error) {
@@ -130,7 +139,7 @@ std::string inWords(httplib::Error error) {
     case httplib::Error::SSLServerVerification:
       return "its certificate is not trusted, or is another computer's";
     default:
-      return httplib::to_string(error);
+      return "the request failed";
   }
 }
 
@@ -138,35 +147,78 @@ std::string inWords(httplib::Error error) {
 
 struct LrsClient::Impl {
   Impl(const Endpoint& e, const Login& login, const LrsTimes& times)
-      : endpoint(e), client(e.origin) {
-    client.set_connection_timeout(times.connect_s);
-    client.set_read_timeout(times.answer_s);
-    client.set_write_timeout(times.answer_s);
-    client.set_keep_alive(true);
-    client.set_tcp_nodelay(true);  // head and body are written apart, and would wait for each other
-    client.set_follow_location(false);
-    client.enable_server_certificate_verification(true);
-    if (!login.user.empty()) client.set_basic_auth(login.user, login.password);
+      : endpoint(e),
+        whole(times.whole_s),
+        client(boundedClient(e.host, portOf(e), e.origin.starts_with("https"),
+                             {.body = kLongestBytes}, count)) {
+    os::surviveBrokenConnections();  // a protection that is being agreed on may break
+    client->set_connection_timeout(times.connect_s);
+    client->set_read_timeout(times.answer_s);
+    client->set_write_timeout(times.answer_s);
+    client->set_keep_alive(true);
+    client->set_tcp_nodelay(
+        true);  // head and body are written apart, and would wait for each other
+    client->set_follow_location(false);
+    client->set_decompress(false);  // none is asked for, and a small one may grow without bound
+    client->enable_server_certificate_verification(true);
+    client->set_socket_options([this](socket_t socket) { connection.use(socket); });
+    if (!login.user.empty()) client->set_basic_auth(login.user, login.password);
   }
 
   std::string resource(const char* parameter, const std::string& id) const {
     return endpoint.path + "/statements?" + parameter + "=" + id;
   }
 
-  static LrsAnswer answerOf(const httplib::Result& result) {
+  LrsAnswer answerTo(httplib::Request request) {
+    std::string body;
+    request.headers.insert(headers.begin(), headers.end());
+    request.response_handler = [this](const httplib::Response&) {
+      count.in_body = true;
+      count.bytes = 0;
+      return true;
+    };
+    request.content_receiver = [&](const char* bytes, std::size_t size, std::uint64_t,
+                                   std::uint64_t) {
+      count.too_long |= body.size() + size > kLongestAnswer;
+      if (!count.too_long) body.append(bytes, size);
+      return !count.too_long;
+    };
+    count = {};
+    ExchangeWatch watch(connection, whole);
+    const httplib::Result result = client->send(request);
+    const bool too_slow = watch.end();
     LrsAnswer answer;
-    if (!result) {
+    if (count.too_long)
+      answer.trouble = kTooLong;
+    else if (too_slow)
+      answer.trouble = kTooSlow;
+    else if (!result)
       answer.trouble = inWords(result.error());
-      return answer;
-    }
-    answer.status = result->status;
-    answer.is_lrs = result->get_header_value(kVersionHeader).rfind("1.", 0) == 0;
-    answer.body = result->body;
+    else
+      answer = answerOf(*result, std::move(body));
     return answer;
   }
 
+  static LrsAnswer answerOf(const httplib::Response& response, std::string body) {
+    return {response.status, response.get_header_value(kVersionHeader).rfind("1.", 0) == 0,
+            std::move(body), ""};
+  }
+
+  /// As the address says, else the usual one.
+  static int portOf(const Endpoint& e) {
+    const std::size_t colon = e.origin.rfind(':'), bracket = e.origin.rfind(']');
+    const bool stated = colon != std::string::npos && colon > e.origin.find("//") &&
+                        (bracket == std::string::npos || colon > bracket) &&
+                        colon + 1 < e.origin.size();
+    if (stated) return std::stoi(e.origin.substr(colon + 1));
+    return e.origin.starts_with("https") ? 443 : 80;
+  }
+
   const Endpoint endpoint;
-  httplib::Client client;
+  const std::chrono::seconds whole;
+  AnswerCount count;
+  WatchedConnection connection;
+  const std::unique_ptr<httplib::ClientImpl> client;
   const httplib::Headers headers{{kVersionHeader, kVersion}, {"Accept", "application/json"}};
 };
 
@@ -175,12 +227,19 @@ LrsClient::LrsClient(const Endpoint& endpoint, const Login& login, const LrsTime
 LrsClient::~LrsClient() = default;
 
 LrsAnswer LrsClient::put(const std::string& id, const std::string& statement) {
-  return Impl::answerOf(impl_->client.Put(impl_->resource("statementId", id), impl_->headers,
-                                          statement, "application/json"));
+  httplib::Request request;
+  request.method = "PUT";
+  request.path = impl_->resource("statementId", id);
+  request.body = statement;
+  request.headers.emplace("Content-Type", "application/json");
+  return impl_->answerTo(std::move(request));
 }
+
 LrsAnswer LrsClient::get(const std::string& id, bool voided) {
-  return Impl::answerOf(impl_->client.Get(
-      impl_->resource(voided ? "voidedStatementId" : "statementId", id), impl_->headers));
+  httplib::Request request;
+  request.method = "GET";
+  request.path = impl_->resource(voided ? "voidedStatementId" : "statementId", id);
+  return impl_->answerTo(std::move(request));
 }
 
 }  // namespace palpa::link

@@ -36,19 +36,23 @@ struct LrsAnswer {
   int status = 0;  ///< 0: nothing that could be understood
   /// It named a version of the Experience API, as every answer of a learning record store must
   bool is_lrs = false;
-  std::string body;
+  std::string body;     ///< as it came: not to be shown without `plainText`
   std::string trouble;  ///< of status 0, in words
 };
 
 struct LrsTimes {
-  std::int64_t connect_s = 10, answer_s = 30;
+  std::int64_t connect_s = 10;
+  std::int64_t answer_s = 30;  ///< without a byte of it
+  std::int64_t whole_s = 60;   ///< the connecting, the request and the whole answer
 };
 
 /// The statements of a learning record store over HTTP, xAPI 1.0.3. Certificates are checked
 /// against those that the system trusts (or $SSL_CERT_FILE). Redirections are not followed: they
-/// would take the password elsewhere. Throws nothing.
+/// would take the password elsewhere. An answer of more than kLongestAnswer, or that has not ended
+/// in time however it drips, is given up. Throws nothing.
 class LrsClient {
  public:
+  static constexpr std::size_t kLongestAnswer = 1u << 20;
   LrsClient(const Endpoint& endpoint, const Login& login, const LrsTimes& times = {});
   ~LrsClient();
   LrsAnswer put(const std::string& id, const std::string& statement);

@@ -48,10 +48,13 @@ LiveLog& beginWith(LiveLog& log, const Hello& hello) {
 
 }  // namespace
 
-LiveSession::LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels)
+LiveSession::LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels,
+                         runtime::StopSwitch& stop)
     : channels_(channels),
+      stop_(stop),
       port_(socket, beginWith(log_, hello),
-            [this](const std::string& command) { receive(command); }) {}
+            [this](const std::string& command) { receive(command); }),
+      stop_port_(stopSocketOf(socket), [this] { stop_.press(); }) {}
 
 void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
                        std::int64_t now_ns) {
@@ -75,7 +78,7 @@ void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
   if (now == published_) return;
   published_ = std::move(now);
   words["t_s"] = secondsOf(now_ns);
-  log_.addCurve(entryOf(words));
+  log_.addPassing(entryOf(words), static_cast<std::uint32_t>(status.trial));
 }
 
 void LiveSession::picture(scene::Image picture, std::int64_t now_ns) {
@@ -85,7 +88,9 @@ void LiveSession::picture(scene::Image picture, std::int64_t now_ns) {
 
 void LiveSession::receive(const std::string& command) {
   try {
-    channels_.console_to_task.push(parseSteering(command));
+    const trial::UserRequest request = parseSteering(command);
+    if (request.command == trial::UserCommand::emergency_stop) return stop_.press();
+    channels_.console_to_task.push(request);
   } catch (const Error& e) {
     if (++refused_ <= kLoggedRefusals) log_.add(entryOf({{"kind", "refused"}, {"text", e.what()}}));
   }

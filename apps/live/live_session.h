@@ -4,6 +4,8 @@
 
 #include "apps/live/live_sink.h"
 #include "apps/live/port.h"
+#include "apps/live/stop_port.h"
+#include "apps/runtime/stop_switch.h"
 #include "apps/trial/trial_status.h"
 
 namespace palpa::live {
@@ -18,7 +20,8 @@ struct Hello {
 /// A session as others see it: its log, its pictures, and what they ask of it.
 class LiveSession {
  public:
-  LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels);
+  LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels,
+              runtime::StopSwitch& stop);
 
   LiveLog& log() { return log_; }
   /// On the scene's thread, once a frame: what is on the screen in words. Told when it has changed,
@@ -35,10 +38,12 @@ class LiveSession {
 
   LiveLog log_;
   trial::Channels& channels_;
+  runtime::StopSwitch& stop_;
   std::string published_;  ///< the last status, without its time
   int refused_ = 0;        ///< told: a peer that sends nonsense for hours shall not fill the memory
   std::int64_t next_words_ns_ = 0, next_picture_ns_ = 0;
-  Port port_;  ///< last: its thread uses the rest
+  Port port_;  ///< after what its thread uses
+  StopPort stop_port_;
 };
 
 }  // namespace palpa::live

@@ -9,15 +9,27 @@
 #include "apps/live/entry.h"
 
 namespace palpa::live {
+namespace {
+
+const std::string kNoCurve = R"({"kind":"curve"})";
+
+}  // namespace
 
 void LiveLog::add(std::string entry) {
   const std::lock_guard lock(mutex_);
   entries_.push_back(std::move(entry));
 }
 
-void LiveLog::addCurve(std::string entry) {
+void LiveLog::addPassing(std::string entry, std::uint32_t trial) {
   const std::lock_guard lock(mutex_);
-  if (entries_.size() < kMostCurves) entries_.push_back(std::move(entry));
+  if (trial > trial_) {
+    for (const std::size_t i : passing_before_) entries_[i] = std::string(kNoCurve);
+    passing_before_ = std::exchange(passing_, {});
+    trial_ = trial;
+  }
+  if (entries_.size() >= kMostPassing) return;
+  passing_.push_back(entries_.size());
+  entries_.push_back(std::move(entry));
 }
 
 std::size_t LiveLog::size() const {
@@ -111,7 +123,8 @@ void LiveSink::endTrial(const runtime::TrialEnd& end) {
 
 void LiveSink::commit() {
   evidence_.commit();
-  if (std::string entry = curve_.take(); !entry.empty()) log_.addCurve(std::move(entry));
+  if (std::string entry = curve_.take(); !entry.empty())
+    log_.addPassing(std::move(entry), curve_.trial());
   publishNear();
 }
 

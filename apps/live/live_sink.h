@@ -12,14 +12,15 @@
 namespace palpa::live {
 
 /// What a session has told so far, entry by entry (JSON objects): whoever comes late, or was away,
-/// reads on from where he was. Any thread but the haptic one.
+/// reads on from where he was. What passes, curves and words on the screen, is kept of the newest
+/// two trials; in place of older ones are curves without points. Any thread but the haptic one.
 class LiveLog {
  public:
-  /// 5 h of curves at 10 entries a second; what happens is told beyond it, too
-  static constexpr std::size_t kMostCurves = 200'000;
+  /// entries: 5 h of what passes; what happens is told beyond it, too
+  static constexpr std::size_t kMostPassing = 200'000;
 
   void add(std::string entry);
-  void addCurve(std::string entry);  ///< left out beyond kMostCurves
+  void addPassing(std::string entry, std::uint32_t trial);  ///< left out beyond kMostPassing
   std::size_t size() const;
   /// At most `most` entries from number `from` (0 is the first).
   std::vector<std::string> since(std::size_t from, std::size_t most) const;
@@ -27,6 +28,8 @@ class LiveLog {
  private:
   mutable std::mutex mutex_;
   std::vector<std::string> entries_;
+  std::vector<std::size_t> passing_, passing_before_;  ///< of the newest trial, and the last one
+  std::uint32_t trial_ = 0;                            ///< the newest
 };
 
 /// What the hand feels, N: of a real thing (where a sensor can say) and of what is rendered,
@@ -47,6 +50,7 @@ class ForceCurve {
   /// "t_s", "force_N", "depth_mm"}; empty: none.
   std::string take();
   const std::vector<Point>& points() const { return points_; }
+  std::uint32_t trial() const { return trial_; }  ///< of the newest point
 
  private:
   std::vector<Point> points_;

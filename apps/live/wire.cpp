@@ -26,12 +26,16 @@ std::size_t longest(char kind) {
       return kLongestCount;
     case FrameKind::watch:
       return 1;
+    case FrameKind::stop:
+      return 0;
   }
   throw Error("is not a known kind of frame", "local socket of a session",
               "Console and session have different versions: restart both");
 }
 
 }  // namespace
+
+std::string stopSocketOf(const std::string& session_socket) { return session_socket + "!"; }
 
 std::string encoded(FrameKind kind, const std::string& body) {
   std::string frame(1, static_cast<char>(kind));

@@ -18,7 +18,9 @@ enum class FrameKind : char {
   /// many it has caught up
   known = 'K',
   command = 'C',  ///< console -> session: {"command", "reason", "at_s"}
-  watch = 'W'     ///< console -> session: "1": pictures are wanted; "0": nobody looks
+  watch = 'W',    ///< console -> session: "1": pictures are wanted; "0": nobody looks
+  /// The emergency stop, at its own socket; the session sends it back when it has it. Empty
+  stop = 'S'
 };
 
 struct LiveFrame {
@@ -28,6 +30,9 @@ struct LiveFrame {
 
 inline constexpr std::size_t kLongestPicture = 8u << 20, kLongestEntry = 1u << 20,
                              kLongestCommand = 8u << 10, kLongestCount = 20;
+
+/// The socket of the emergency stop beside that of a session.
+std::string stopSocketOf(const std::string& session_socket);
 
 std::string encoded(FrameKind kind, const std::string& body);
 

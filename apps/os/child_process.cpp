@@ -92,6 +92,12 @@ void askToEnd(const ProcessId& process) {
   if (runs(process)) ::kill(process.pid, SIGINT);
 }
 
+void becomeAnew(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"palpa"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  ::execv("/proc/self/exe", pointersTo(words).data());
+}
+
 bool startProgram(const std::string& name, const std::vector<std::string>& arguments) {
   std::vector<std::string> words{name};
   words.insert(words.end(), arguments.begin(), arguments.end());

@@ -25,6 +25,10 @@ bool runs(const ProcessId& process);
 /// Asks it to end, as Ctrl-C does.
 void askToEnd(const ProcessId& process);
 
+/// This process becomes the program anew, with `arguments`: its number stays, and whatever hangs in
+/// it is gone. Comes back only where that cannot be.
+void becomeAnew(const std::vector<std::string>& arguments);
+
 /// Starts an installed program, found as a shell finds it, and leaves it alone. False: there is
 /// none of this name.
 bool startProgram(const std::string& name, const std::vector<std::string>& arguments);

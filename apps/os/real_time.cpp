@@ -1,6 +1,7 @@
 #include "apps/os/real_time.h"
 
 #include <linux/capability.h>
+#include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -17,6 +18,7 @@ namespace {
 // Over normal threads and most of the kernel's own, under its watchdogs.
 constexpr int kFifoPriority = 80;
 constexpr int kServerNice = 15;
+constexpr int kMemoryPools = 2;
 constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
 constexpr std::size_t kPage = 4096;         // the smallest there is
 
@@ -74,6 +76,8 @@ std::string becomeRealTime(int cpu) {
   if (cpu >= 0) words += "; " + askForCpu(cpu);
   return words;
 }
+
+void shareMemoryPools() { mallopt(M_ARENA_MAX, kMemoryPools); }
 
 void giveWay() { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kServerNice); }
 

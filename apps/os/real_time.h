@@ -30,4 +30,8 @@ std::string becomeRealTime(int cpu);
 /// The calling thread gives way to all others that want to run.
 void giveWay();
 
+/// All threads of this process share two pools of memory from now on. With one pool a thread, as is
+/// usual, each keeps what it once needed: a server of many threads grows by as many answers.
+void shareMemoryPools();
+
 }  // namespace palpa::os

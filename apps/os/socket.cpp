@@ -1,13 +1,20 @@
 #include "apps/os/socket.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <cstring>
 #include <vector>
+
+#include "anatomy/base/error.h"
 
 namespace palpa::os {
 namespace {
@@ -68,12 +75,6 @@ std::optional<std::size_t> receiveSome(int socket, void* bytes, std::size_t size
   return result == 0 ? std::nullopt : countOf(result);
 }
 
-std::optional<std::size_t> sendWaiting(int socket, const void* bytes, std::size_t size) {
-  const ssize_t result = ::send(socket, bytes, size, MSG_NOSIGNAL);
-  if (result < 0) return std::nullopt;
-  return static_cast<std::size_t>(result);
-}
-
 int acceptOne(int listener) {
   return ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
 }
@@ -94,6 +95,38 @@ void reuseAddress(int socket) {
 }
 
 void widenBacklog(int listener, int most) { ::listen(listener, most); }
+
+void neverWait(int socket) {
+  if (const int flags = ::fcntl(socket, F_GETFL); flags >= 0)
+    ::fcntl(socket, F_SETFL, flags | O_NONBLOCK);
+}
+
+void sendAtOnce(int socket) {
+  const int on = 1;
+  ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+}
+
+void surviveBrokenConnections() { ::signal(SIGPIPE, SIG_IGN); }
+
+int sharedSocket(int socket) { return ::fcntl(socket, F_DUPFD_CLOEXEC, 0); }
+
+WakeUp::WakeUp() : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (descriptor_ < 0)
+    throw Error(std::string("gives no further file descriptor (") + std::strerror(errno) + ")",
+                "this computer", "End other programs, or raise the limit (ulimit -n)");
+}
+
+WakeUp::~WakeUp() { ::close(descriptor_); }
+
+void WakeUp::wake() noexcept {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = ::write(descriptor_, &one, sizeof one);
+}
+
+void WakeUp::taken() noexcept {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const ssize_t taken = ::read(descriptor_, &count, sizeof count);
+}
 
 bool isLoopbackAddress(const std::string& ipv4) {
   in_addr v4{};

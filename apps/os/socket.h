@@ -26,9 +26,6 @@ void waitForAny(std::span<const WatchedSocket> all, int wait_ms);
 std::optional<std::size_t> sendSome(int socket, const void* bytes, std::size_t size);
 /// The same for bytes that are there to be read.
 std::optional<std::size_t> receiveSome(int socket, void* bytes, std::size_t size);
-/// Sends as the socket is set: one that waits does so, up to its own time limit. Nothing: none of
-/// it could be sent.
-std::optional<std::size_t> sendWaiting(int socket, const void* bytes, std::size_t size);
 
 /// One of those who knock at a listening socket; it never waits, and no child inherits it. -1:
 /// nobody does.
@@ -49,6 +46,31 @@ void closeSocket(int socket);
 void reuseAddress(int socket);
 /// So many may knock at once at one that listens.
 void widenBacklog(int listener, int most);
+/// Accepting, sending and receiving never wait.
+void neverWait(int socket);
+/// Of a TCP connection: small messages leave at once, and do not wait for each other.
+void sendAtOnce(int socket);
+/// A connection that breaks while something is sent ends no program from now on: for libraries that
+/// send by themselves. What is sent from here never does.
+void surviveBrokenConnections();
+/// A second descriptor of the same connection, to be closed apart; -1: there is none left.
+int sharedSocket(int socket);
+
+/// Wakes one thread that waits in `waitForAny` for its `descriptor`, from any other. Throws Error
+/// where the system gives none.
+class WakeUp {
+ public:
+  WakeUp();
+  ~WakeUp();
+  WakeUp(const WakeUp&) = delete;
+  WakeUp& operator=(const WakeUp&) = delete;
+  int descriptor() const { return descriptor_; }
+  void wake() noexcept;
+  void taken() noexcept;  ///< by the thread that was woken: it may wait again
+
+ private:
+  int descriptor_ = -1;
+};
 
 /// An IPv4 address in figures that this computer alone can reach. (A name that begins with 127. may
 /// be anybody's.)

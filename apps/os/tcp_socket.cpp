@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <netdb.h>
 #include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -27,7 +26,7 @@ std::optional<sockaddr_in> addressOf(const std::string& ipv4, std::uint16_t port
 /// Small messages leave at once; a peer whose cable is pulled is noticed.
 void prepare(int fd) {
   const int on = 1;
-  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  sendAtOnce(fd);
   setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 
 namespace palpa::presentation {
@@ -55,15 +56,6 @@ const char* nameIn(const Names<Look>& names, Look look) {
   return names[0].first;
 }
 
-/// A misspelt field would show what was to be hidden.
-void refuseUnknown(const JsonFile& file) {
-  std::vector<std::string> known{"$schema", "version", "name", "title", "source", "skin", "views"};
-  for (const Part& part : kParts) known.emplace_back(part.field);
-  for (const auto& [field, ignored] : file.json().items())
-    if (std::find(known.begin(), known.end(), field) == known.end())
-      file.refuse(field, "is no field of a presentation");
-}
-
 }  // namespace
 
 bool replacesFeeling(const Presentation& shown) {
@@ -98,8 +90,7 @@ std::string describe(const Presentation& shown) {
 
 Presentation readPresentation(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
-  refuseUnknown(file);
+  needKind(file, "presentation", 1);
   Presentation shown;
   shown.name = file.text("name");
   shown.title = file.text("title");

@@ -6,6 +6,7 @@
 
 #include "apps/runtime/channels.h"
 #include "apps/runtime/flight_sink.h"
+#include "apps/runtime/stop_switch.h"
 #include "ar/cameras/camera.h"
 #include "ar/tracking/board_tracker.h"
 #include "haptics/loop/tick_state.h"
@@ -86,7 +87,7 @@ struct Keyframe {
 using EvidenceMessage = std::variant<Event, TrialHeader, TrialEnd>;
 
 /// Everything that passes between activities: state is latest-wins, events are queued. Each channel
-/// has one writer and one reader, named `<writer>_to_<reader>`.
+/// has one writer and one reader, named `<writer>_to_<reader>`; the emergency stop alone has many.
 struct Bus {
   explicit Bus(TimeMode mode)
       : geometry_to_haptic(mode),
@@ -100,6 +101,8 @@ struct Bus {
         second_to_link(mode),
         camera_to_link(mode),
         scene_to_operator(mode) {}
+
+  StopSwitch stop;  ///< pressed by anybody, read by the haptic thread and the task
 
   StateChannel<LocalGeometry> geometry_to_haptic;
   StateChannel<ToolState> haptic_to_geometry, haptic_to_scene;

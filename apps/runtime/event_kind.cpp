@@ -6,9 +6,9 @@ namespace palpa::runtime {
 namespace {
 
 const EnumNames<EventKind> kEventKinds{
-    "ready",   "start", "pause", "resume", "safety",   "emergency_stop", "rearm", "device",
-    "camera",  "note",  "case",  "phase",  "puncture", "withdrawn",      "wall",  "vein",
-    "touched", "mark",  "grade", "let_go", "thing",    "answer"};
+    "ready",   "start", "pause", "resume", "safety",   "emergency_stop", "rearm",   "device",
+    "camera",  "note",  "case",  "phase",  "puncture", "withdrawn",      "wall",    "vein",
+    "touched", "mark",  "grade", "let_go", "thing",    "answer",         "computer"};
 
 }  // namespace
 

@@ -28,7 +28,8 @@ enum class EventKind : std::uint8_t {
   grade,       ///< and grades it; number of the mark
   let_go,      ///< the handle of a search
   thing,       ///< that is held now
-  answer       ///< which thing has more, 1 or 2
+  answer,      ///< which thing has more, 1 or 2
+  computer     ///< a part of it does not answer, or does again
 };
 
 /// "ready", ..., "case", ...: in records, logs and on the wire.

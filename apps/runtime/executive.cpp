@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "apps/os/real_time.h"
 
@@ -117,6 +118,8 @@ std::unique_ptr<Executive> makeVirtualExecutive() { return std::make_unique<Virt
 
 namespace {
 
+constexpr std::int64_t kIdle = kNever;
+
 class RealExecutive final : public Executive {
  public:
   TimeMode mode() const override { return TimeMode::real; }
@@ -128,6 +131,20 @@ class RealExecutive final : public Executive {
     entries_.push_back(std::move(entry));
   }
   void stop() noexcept override { stopped_.store(true); }
+  void whenStuck(std::function<void(const Stuck&)> give_up, std::int64_t patience_ns) override {
+    give_up_ = std::move(give_up);
+    patience_ns_ = patience_ns;
+  }
+
+  Stuck stuckFor(std::int64_t time_ns) const override {
+    Stuck names;
+    const std::int64_t now = clock_.now();
+    for (const auto& entry : entries_) {
+      const std::int64_t since = entry->since.load();
+      if (since != kIdle && now - since >= time_ns) names.push_back(entry->activity->name());
+    }
+    return names;
+  }
 
   void run() override {
     stopped_.store(false);
@@ -136,6 +153,7 @@ class RealExecutive final : public Executive {
                     [](const auto& e) { return e->policy.real_time; }))
       memory.emplace();
     std::vector<std::thread> threads;
+    if (give_up_) threads.emplace_back([this] { watchTheEnd(); });
     for (auto& entry : entries_)
       if (!entry->policy.on_caller) threads.emplace_back([this, &entry] { loop(*entry); });
     for (auto& entry : entries_)
@@ -164,7 +182,25 @@ class RealExecutive final : public Executive {
     TimeHistogram late, cost;
     std::uint64_t missed = 0;
     std::string scheduling = "normal priority";
+    std::atomic<std::int64_t> since{kIdle};  ///< its step began
+    std::atomic<bool> over{false};
   };
+
+  /// Until all have ended, or what has not is given up.
+  void watchTheEnd() {
+    constexpr std::int64_t kLook = 5 * kMillisecond;
+    const auto allOver = [this] {
+      return std::all_of(entries_.begin(), entries_.end(),
+                         [](const auto& entry) { return entry->over.load(); });
+    };
+    while (!stopped_.load() && !allOver()) clock_.sleepUntil(clock_.now() + kLook);
+    const std::int64_t end = clock_.now() + patience_ns_;
+    while (!allOver() && clock_.now() < end) clock_.sleepUntil(clock_.now() + kLook);
+    Stuck stuck;
+    for (const auto& entry : entries_)
+      if (!entry->over.load()) stuck.push_back(entry->activity->name());
+    if (!stuck.empty()) give_up_(stuck);
+  }
 
   void loop(ActivityThread& entry) {
     try {
@@ -174,7 +210,9 @@ class RealExecutive final : public Executive {
       while (!stopped_.load(std::memory_order_relaxed)) {
         clock_.sleepUntil(due);
         const std::int64_t now = clock_.now();
+        entry.since.store(now, std::memory_order_relaxed);
         const std::int64_t next = entry.activity->step(now);
+        entry.since.store(kIdle, std::memory_order_relaxed);
         entry.cost.add(clock_.now() - now);
         entry.late.add(now - due);
         entry.missed += period > 0 && now - due > period;
@@ -187,10 +225,13 @@ class RealExecutive final : public Executive {
       stop();
     }
     entry.activity->end();
+    entry.over.store(true);
   }
 
   SteadyClock clock_;
   std::vector<std::unique_ptr<ActivityThread>> entries_;
+  std::function<void(const Stuck&)> give_up_;
+  std::int64_t patience_ns_ = 0;
   std::atomic<bool> stopped_{false};
   std::mutex failure_mutex_;
   std::exception_ptr failure_;

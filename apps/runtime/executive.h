@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,6 +66,14 @@ class Executive {
   virtual void add(Activity& activity, const ThreadPolicy& policy) = 0;
   virtual void run() = 0;  ///< rethrows the first exception of an activity, after stopping all
   virtual void stop() noexcept = 0;
+  /// What hangs in a call that does not come back would hold up the end of `run` for ever. Some
+  /// seconds after a stop `giveUp` is then called, on a thread of its own, with the names of the
+  /// activities whose last step is not over; all others have ended. It has to end the program. In
+  /// virtual time nothing is given up.
+  using Stuck = std::vector<std::string>;
+  virtual void whenStuck(std::function<void(const Stuck&)>, std::int64_t /*patience_ns*/) {}
+  /// Activities whose step has lasted this long; any thread.
+  virtual Stuck stuckFor(std::int64_t) const { return {}; }
   virtual std::vector<Lateness> lateness() const { return {}; }
 };
 

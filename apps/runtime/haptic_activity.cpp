@@ -60,15 +60,26 @@ ToolState toolStateOf(const haptics::TickConfig& config, const haptics::TickStat
   return tool;
 }
 
+namespace {
+
+/// What the task wants, and past everything that may hold it up, the emergency stop.
+haptics::TickCommands commandsFor(Bus& bus, std::int64_t now_ns) {
+  const haptics::TickCommands* const newest = bus.task_to_haptic.read(now_ns);
+  haptics::TickCommands commands = newest ? *newest : haptics::TickCommands{};
+  commands.emergency_stop = bus.stop.noForce();
+  return commands;
+}
+
+}  // namespace
+
 std::int64_t HapticActivity::step(std::int64_t now_ns) {
   const haptics::DeviceReading reading = device_.read(now_ns);
   const LocalGeometry* latest = geometryFor(reading, now_ns);
   const haptics::SensedForce sensed =
       sensing_ ? sensing_->sense(reading, now_ns) : haptics::SensedForce{};
-  const haptics::TickCommands* commands = bus_.task_to_haptic.read(now_ns);
   if (state_.tick % kKeyframeTicks == 0)
     bus_.keyframes_to_recorder.push(Keyframe{state_.tick, state_});
-  const haptics::TickCommands told = commands ? *commands : haptics::TickCommands{};
+  const haptics::TickCommands told = commandsFor(bus_, now_ns);
   const haptics::Floor* floor = floors_ && told.floor ? floors_->floor(told.floor) : nullptr;
   haptics::FlightRecord record =
       haptics::tick(config_, state_, reading, latest, told, now_ns, sensed, floor);
@@ -108,9 +119,8 @@ std::int64_t HapticPairActivity::step(std::int64_t now_ns) {
     readings[t] = tools_[t].device.read(now_ns);
     sensed[t] = tools_[t].sensing.sense(readings[t], now_ns);
   }
-  const haptics::TickCommands* commands = bus_.task_to_haptic.read(now_ns);
-  std::array<haptics::FlightRecord, 2> records = haptics::tickPair(
-      config_, state_, readings, commands ? *commands : haptics::TickCommands{}, now_ns, sensed);
+  std::array<haptics::FlightRecord, 2> records =
+      haptics::tickPair(config_, state_, readings, commandsFor(bus_, now_ns), now_ns, sensed);
   for (std::size_t t = 0; t < 2; ++t) {
     tools_[t].device.command(now_ns, records[t].f_command_D);
     records[t].late_ns = due_ns_ < 0 ? 0 : now_ns - due_ns_;

@@ -94,7 +94,9 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   setup.X_WD = world.station.X_WD;
   setup.mark = "DEMONSTRATION: SIMULATED EXPERT";
   setup.shown = shownIn(options);
-  setup.input = [&](const scene::ViewInput& input, std::int64_t) { handleKeys(input, channels); };
+  setup.input = [&](const scene::ViewInput& input, std::int64_t) {
+    handleKeys(input, channels, bus.stop);
+  };
   task_needle::NeedleScene scene(shown, bus, channels);
   executive->add(playback, {0, false, false});
   executive->add(scene, {1, false, true});

@@ -33,7 +33,8 @@ void send(trial::Channels& channels, UserCommand command, const std::string& rea
 
 }  // namespace
 
-void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
+void handleKeys(const scene::ViewInput& input, trial::Channels& channels,
+                runtime::StopSwitch& stop) {
   if (input.closed) send(channels, UserCommand::quit);
   for (const std::string& key : input.keys) {
     if (key == "Return" || key == "KP_Enter")
@@ -43,7 +44,7 @@ void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
     else if (key == "a" || key == "A")
       send(channels, UserCommand::abort);
     else if (key == "space")
-      send(channels, UserCommand::emergency_stop);
+      stop.press();
     else if (key == "r" || key == "R")
       send(channels, UserCommand::rearm);
     else if (key == "Escape")
@@ -58,15 +59,15 @@ void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
 }
 
 MouseHand::MouseHand(const MouseHandSetup& setup, runtime::ChannelDevice& device,
-                     trial::Channels& channels)
-    : setup_(setup), device_(device), channels_(channels) {
+                     trial::Channels& channels, runtime::StopSwitch& stop)
+    : setup_(setup), device_(device), channels_(channels), stop_(stop) {
   request_.tip_A = pack(setup.anatomy.entry_A);
   request_.along = -kAboveSkin;
   X_AT_ = pointedByMouse(request_);
 }
 
 void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
-  handleKeys(input, channels_);
+  handleKeys(input, channels_, stop_);
   const auto leads = [](const std::string& key) {
     return key == "Left" || key == "Right" || key == "Up" || key == "Down";
   };

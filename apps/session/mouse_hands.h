@@ -15,7 +15,8 @@
 namespace palpa::session {
 
 /// Keys that every session understands: Enter, P, A, V + 1..4, space, R, Escape.
-void handleKeys(const scene::ViewInput& input, trial::Channels& channels);
+void handleKeys(const scene::ViewInput& input, trial::Channels& channels,
+                runtime::StopSwitch& stop);
 
 /// What a needle led by the mouse moves in.
 struct MouseHandSetup {
@@ -30,7 +31,8 @@ struct MouseHandSetup {
 /// entry, Z and X (left-handed: period and comma) draw and push the plunger, T changes the skin.
 class MouseHand final : public runtime::Activity {
  public:
-  MouseHand(const MouseHandSetup& setup, runtime::ChannelDevice& device, trial::Channels& channels);
+  MouseHand(const MouseHandSetup& setup, runtime::ChannelDevice& device, trial::Channels& channels,
+            runtime::StopSwitch& stop);
 
   const char* name() const override { return "mouse"; }
   std::int64_t step(std::int64_t now_ns) override;  ///< 1 kHz: publishes the smoothed pose
@@ -57,6 +59,7 @@ class MouseHand final : public runtime::Activity {
   MouseHandSetup setup_;
   runtime::ChannelDevice& device_;
   trial::Channels& channels_;
+  runtime::StopSwitch& stop_;
   runtime::StateChannel<MouseRequest> requests_{runtime::TimeMode::real};
   MouseRequest request_;  // the scene thread's
   double mouse_x_ = 0, mouse_y_ = 0;

@@ -25,7 +25,7 @@ std::vector<report::TrialPage> pages(const SessionResult& result,
                                      const evidence::RatingForms* forms) {
   std::vector<report::TrialPage> all;
   for (const auto& trial : result.trials) {
-    report::TrialPage page{trial.assessment, evidence::thinned(trial.samples), {}};
+    report::TrialPage page{trial.assessment, {}, {}};
     for (const auto& p : result.pictures)
       if (p.moment.trial == trial.assessment.trial)
         page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
@@ -38,6 +38,18 @@ std::vector<report::TrialPage> pages(const SessionResult& result,
     all.push_back(std::move(page));
   }
   return all;
+}
+
+/// From the evidence, as `palpa report trial` reads them.
+report::Courses<assess::TrialSample> coursesIn(const std::filesystem::path& evidence,
+                                               const Pose& X_DA) {
+  return [evidence, X_DA](const auto& draw) {
+    evidence::eachNeedleTrial(
+        record::SessionReader(evidence), X_DA,
+        [&](const record::RecordedTrial& trial, const evidence::NeedleSamples& samples) {
+          draw(trial.header.trial, evidence::thinned(samples));
+        });
+  };
 }
 
 /// With the needle's tip at the entry point, upright.
@@ -165,6 +177,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
   const std::optional<evidence::RatingForms> forms =
       options.assess ? std::optional(evidence::readForms("", "")) : std::nullopt;
   page.trials = pages(result, forms ? &*forms : nullptr);
+  page.courses = coursesIn(folder / "session.palpa", world.X_DA);
   page.taxonomy = taxonomyFacts(world.task.taxonomy);
   page.station = stationFacts(options, world);
   page.registration = registrationFacts(result, world);

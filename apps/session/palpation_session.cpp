@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/counted.h"
+#include "apps/evidence/recorded_trials.h"
 #include "apps/report/palpation/palpation_report.h"
 #include "apps/session/mouse_hands.h"
 #include "apps/session/output_folder.h"
@@ -220,13 +221,24 @@ namespace {
 std::vector<report::PalpationPage> pagesOf(const PalpationWorld& world, const PalpationRun& run) {
   std::vector<report::PalpationPage> pages;
   for (const auto& trial : run.trials) {
-    report::PalpationPage page{trial.assessment, trial.samples, world.task.scoring.rules, {}};
+    report::PalpationPage page{trial.assessment, {}, world.task.scoring.rules, {}};
     for (const trial::SavedPicture& p : run.pictures)
       if (p.moment.trial == trial.assessment.facts.trial)
         page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
     pages.push_back(std::move(page));
   }
   return pages;
+}
+
+/// From the evidence.
+report::Courses<assess::PalpationSample> touchesIn(const std::filesystem::path& evidence) {
+  return [evidence](const auto& draw) {
+    evidence::eachPalpation(
+        record::SessionReader(evidence),
+        [&](const record::RecordedTrial& trial, const task_palpation::PalpationListener& felt) {
+          draw(trial.header.trial, felt.samples());
+        });
+  };
 }
 
 std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
@@ -256,6 +268,7 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
   page.simulated = world.simulated(options);
   page.force_note = world.forceNote();
   page.trials = pagesOf(world, run);
+  page.courses = touchesIn(folder / "session.palpa");
   page.standard = world.task.scoring.standard;
   page.taxonomy = taxonomyFacts(world.task.taxonomy);
   page.station = stationFactsOf(options, world.station);

@@ -98,7 +98,7 @@ void SessionDevices::openDevice(const std::optional<MouseHandSetup>& mouse, runt
         std::make_unique<haptics::ReplayDevice>(setup.capabilities, readingsOf(setup.recording));
     device = replay_.get();
   } else if (mouse) {
-    mouse_ = std::make_unique<MouseHand>(*mouse, channel_, channels);
+    mouse_ = std::make_unique<MouseHand>(*mouse, channel_, channels, bus.stop);
   } else {
     throw UsageError(
         "cannot feel anything", station_.file.name() + ", device",

@@ -6,7 +6,9 @@
 #include "apps/session/event_tone.h"
 #include "apps/session/session_igtl.h"
 #include "apps/session/session_records.h"
+#include "apps/session/session_watch.h"
 #include "apps/session/terminal.h"
+#include "scene/window/x11_window.h"
 
 namespace palpa::session {
 namespace {
@@ -17,6 +19,15 @@ live::Hello helloOf(const SessionOptions& o, const station::Station& station,
           o.trainee, isSimulated(o.who) || station.simulated,
           o.assess,  o.trials};
 }
+
+/// While it lives, a window that is gone ends the session and not the program.
+class WindowWatch {
+ public:
+  explicit WindowWatch(std::function<void()> lost) { scene::whenWindowIsLost(std::move(lost)); }
+  ~WindowWatch() { scene::whenWindowIsLost(nullptr); }
+  WindowWatch(const WindowWatch&) = delete;
+  WindowWatch& operator=(const WindowWatch&) = delete;
+};
 
 }  // namespace
 
@@ -40,6 +51,7 @@ SessionFrame::SessionFrame(const SessionOptions& options, const World& world,
                               : makeStage(options, world.patient, window_, world.fixed_views)),
       executive_(options.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive()),
       mode_(executive_->mode()),
+      stop_key_(window_ && mode_ == runtime::TimeMode::real ? stage_.context->stopKey() : nullptr),
       bus_(mode_),
       devices_(options, world.station, std::move(hands), bus_, channels, executive_->clock(),
                mode_) {}
@@ -75,7 +87,7 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
                          std::int64_t now_ns) { publish(state, status, now_ns); };
   if (!window_) return stage;
   stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
-    handleKeys(input, channels_);
+    handleKeys(input, channels_, bus_.stop);
     if (PointingHand* hand = devices_.pointing())
       hand->handle(input, stage_.view->arGeometry(), now_ns);
   };
@@ -126,13 +138,16 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   std::optional<live::LiveSink> told;
   if (!options_.live.empty()) {
     live_ = std::make_unique<live::LiveSession>(
-        options_.live, helloOf(options_, world_.station, info.uuid), channels_);
+        options_.live, helloOf(options_, world_.station, info.uuid), channels_, bus_.stop);
     told.emplace(writer, live_->log(), world_.near, toneOfEvent);
   }
   runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer,
                                      world_.tick.period_ns);
   ProgressLine progress(options_.quiet);
-  Interrupt interrupt(channels_);
+  SessionWatch watch(*executive_, channels_, bus_.stop);
+  const WindowWatch window([&watch] { watch.windowIsLost(); });
+  std::optional<StopKeyWatch> stop_key;
+  if (stop_key_) stop_key.emplace(*stop_key_, bus_.stop);
   devices_.addTo(*executive_);
   executive_->add(*haptic, {1, true, false, options_.cpu});
   if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});
@@ -141,7 +156,8 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   executive_->add(scene, {5, false, true});
   executive_->add(recorder, {6, false, false});
   executive_->add(progress, {7, false, false});
-  executive_->add(interrupt, {8, false, false});
+  executive_->add(watch, {8, false, false});
+  if (stop_key) executive_->add(*stop_key, {9, false, false});
   igtl.addTo(*executive_);
   executive_->run();
   scene.finish(executive_->clock().now());

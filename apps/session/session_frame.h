@@ -88,6 +88,7 @@ class SessionFrame {
   const DesktopStage stage_;
   const std::unique_ptr<runtime::Executive> executive_;
   const runtime::TimeMode mode_;
+  const std::unique_ptr<scene::StopKey> stop_key_;  ///< of a window, in real time
   runtime::Bus bus_;
   SessionDevices devices_;
   std::optional<runtime::VideoRecorder> video_;

@@ -19,6 +19,13 @@ scene::FixedViews fixedViews(const presentation::Presentation& shown) {
   return scene::FixedViews::three;
 }
 
+std::string silencesOf(const headset::HeadsetView& view) {
+  const int times = view.silences();
+  return times == 0 ? ""
+                    : "; its runtime did not answer for a while " +
+                          (times == 1 ? "once" : std::to_string(times) + " times");
+}
+
 }  // namespace
 
 DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
@@ -42,7 +49,7 @@ DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& pa
 report::Fact HeadStage::fact() const {
   if (!view) return {"Headset", "none", refusal};
   return {"Headset", view->describe(),
-          std::to_string(view->frames()) + " pictures shown to each eye" +
+          std::to_string(view->frames()) + " pictures shown to each eye" + silencesOf(*view) +
               (view->trouble().empty() ? "" : "; then " + view->trouble())};
 }
 

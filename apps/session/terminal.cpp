@@ -56,16 +56,4 @@ void WorkProgress::done(int count) {
   std::fflush(stderr);
 }
 
-namespace {
-
-constexpr std::int64_t kLookPeriod = 50 * runtime::kMillisecond;
-
-}  // namespace
-
-std::int64_t Interrupt::step(std::int64_t now_ns) {
-  if (!note_.noted()) return now_ns + kLookPeriod;
-  channels_.signals_to_task.push({trial::UserCommand::quit, "Interrupted"});
-  return runtime::kNever;
-}
-
 }  // namespace palpa::session

@@ -3,10 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/os/signals.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/clock.h"
-#include "apps/trial/trial_status.h"
 
 namespace palpa::session {
 
@@ -41,19 +39,6 @@ class WorkProgress {
   bool terminal_;
   std::int64_t last_ns_ = 0;
   runtime::SteadyClock clock_;
-};
-
-/// Ctrl-C, SIGTERM and a terminal that is closed end a session as Escape does: the trial is ended,
-/// devices get zero force, files are written.
-class Interrupt final : public runtime::Activity {
- public:
-  explicit Interrupt(trial::Channels& channels) : channels_(channels) {}
-  const char* name() const override { return "interrupt"; }
-  std::int64_t step(std::int64_t now_ns) override;
-
- private:
-  trial::Channels& channels_;
-  os::InterruptNote note_;
 };
 
 }  // namespace palpa::session

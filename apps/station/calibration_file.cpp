@@ -6,6 +6,7 @@
 
 #include "anatomy/base/enum_names.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/whole_file.h"
@@ -19,6 +20,7 @@ using nlohmann::json;
 constexpr int kCalibrationVersion = 1;
 constexpr const char* kCalibrationFormat = "palpa calibration";
 constexpr std::size_t kMostNumbers = 200'000;
+constexpr std::size_t kMostCoordinates = 1000;  // a matrix of as many rows and columns
 
 const EnumNames<CalibrationKind> kCalibrationKinds{
     "camera",       "tool",     "workspace", "registration", "latency",
@@ -109,13 +111,15 @@ bool allFinite(const CalibrationFile& c) {
          std::all_of(c.residuals.values.begin(), c.residuals.values.end(), finite);
 }
 
-/// What is in it, so that damage is told from a file that is none.
-void requireOurs(const JsonFile& file) {
+void requireFormat(const JsonFile& file) {
   if (!file.json().is_object() || !file.json().contains("format") ||
       file.json().at("format") != kCalibrationFormat)
     throw UsageError("is not a calibration made by this program", file.name(),
                      "Give a file that `palpa calibrate` has written");
-  file.needVersion(kCalibrationVersion);
+}
+
+/// So that damage is told from a file that is none.
+void requireUnchanged(const JsonFile& file) {
   json body = file.json();
   const std::string said = file.text("sha256");
   body.erase("sha256");
@@ -133,6 +137,9 @@ void readCovariance(const JsonFile& file, CalibrationFile& c) {
   }
   const json matrix = covariance.value("matrix", json::array());
   const auto n = static_cast<Eigen::Index>(c.coordinates.size());
+  if (c.coordinates.size() > kMostCoordinates)
+    file.refuse("covariance/coordinates",
+                "has more than " + std::to_string(kMostCoordinates) + " names");
   if (!matrix.is_array() || matrix.size() != c.coordinates.size())
     file.refuse("covariance/matrix", "must be as large as its coordinates");
   c.covariance.resize(n, n);
@@ -172,7 +179,9 @@ void readLists(const JsonFile& file, CalibrationFile& c) {
 }
 
 CalibrationFile read(const JsonFile& file) {
-  requireOurs(file);
+  requireFormat(file);
+  file.needVersion(kCalibrationVersion);
+  requireUnchanged(file);
   CalibrationFile c;
   const std::optional<CalibrationKind> kind = calibrationKindNamed(file.text("kind"));
   if (!kind)
@@ -209,9 +218,17 @@ std::optional<CalibrationKind> calibrationKindNamed(std::string_view name) {
   return kCalibrationKinds.named(name);
 }
 
-/// A bad calibration is no mistake in how the program was called: exit code 1.
+/// A bad calibration is no mistake in how the program was called: exit code 1. A field that nobody
+/// knows is one: somebody wrote it.
 CalibrationFile readCalibration(const std::filesystem::path& path) {
-  return readOwnFile([&] { return read(JsonFile(path)); });
+  const JsonFile file = readOwnFile([&] {
+    JsonFile whole(path);
+    if (whole.has("format") || !whole.has("sha256")) requireFormat(whole);
+    if (whole.has("version")) whole.needVersion(kCalibrationVersion);
+    return whole;
+  });
+  refuseUnknownFields(file, "calibration");
+  return readOwnFile([&] { return read(file); });
 }
 
 const std::vector<double>& CalibrationFile::at(const std::string& name, std::size_t size) const {

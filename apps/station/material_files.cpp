@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "apps/station/calibration_file.h"
 
@@ -77,7 +78,7 @@ void readWalls(const JsonFile& file, haptics::NeedleMaterials& m) {
 
 NeedleFile readNeedleFile(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
+  needKind(file, "needle_material", 1);
   NeedleFile needle;
   haptics::NeedleMaterials& m = needle.materials;
   readSkin(file, m.skin);
@@ -182,7 +183,7 @@ LumpKind kindAt(const JsonFile& entry, const std::filesystem::path& folder, bool
 
 LumpLibrary readLumps(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
+  needKind(file, "lumps", 1);
   const std::filesystem::path folder = path.parent_path();
   LumpLibrary library;
   const CalibrationFile surface = calibrationAt(file, "surface", CalibrationKind::material, folder),

@@ -2,6 +2,7 @@
 
 #include "anatomy/base/enum_names.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/units.h"
 #include "anatomy/geometry/pose.h"
 #include "haptics/safety/passivity.h"
@@ -11,6 +12,8 @@ namespace {
 
 constexpr int kStationVersion = 1;
 constexpr double kLongestPeriod = 1e-3;  // s: the loop runs at 1 kHz or faster
+// Of the virtual camera, whose pictures are drawn: 8K at 30 Hz.
+constexpr double kMostPixelsPerSecond = 1e9;
 constexpr double kDampedShare = 0.2;  // of m / T: more would make a sampled damper unstable itself
 
 calibration::CameraModel readCamera(const JsonFile& file) {
@@ -128,7 +131,7 @@ void readLimits(const JsonFile& file, Station& s) {
 
 Station readStation(const std::filesystem::path& path) {
   JsonFile file(path);
-  file.needVersion(kStationVersion);
+  needKind(file, "station", kStationVersion);
   Station s;
   s.file = file;
   s.id = file.text("id");
@@ -141,6 +144,10 @@ Station readStation(const std::filesystem::path& path) {
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
   const bool on_bench = s.camera_setup.driver ==
                         CameraDriver::bench;  // where a picture is seen before the next is taken
+  if (on_bench && s.camera_rate_Hz * s.camera.width * s.camera.height > kMostPixelsPerSecond)
+    file.refuse("camera/rate_Hz",
+                "asks for more pixels a second than can be drawn: make the "
+                "pictures smaller or fewer");
   s.camera_latency_s =
       1e-3 * file.number("camera/latency_ms", 0, on_bench ? 1000 / s.camera_rate_Hz : 1000);
   s.simulated = on_bench || s.device.driver == DeviceDriver::bench;

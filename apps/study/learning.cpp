@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
 #include "apps/training/engine.h"
@@ -46,7 +47,7 @@ void needGroups(const JsonFile& file, const Protocol& protocol, const Learners& 
 
 Learners readLearners(const std::filesystem::path& path, const Protocol& protocol) {
   const JsonFile file(path);
-  file.needVersion(1);
+  needKind(file, "learners", 1);
   Learners l;
   l.id = needName(file, "id");
   l.title = file.text("title");

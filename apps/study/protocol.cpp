@@ -1,10 +1,12 @@
 #include "apps/study/protocol.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
 #include "anatomy/base/sha256.h"
@@ -50,7 +52,7 @@ namespace {
 
 constexpr const char* kDrawn = "drawn";  // a block's condition: the one that the trainee drew
 constexpr int kMostTrials = 1000, kMostDays = 3650, kMostPlaces = 64;
-constexpr double kLongestRest_s = 24 * 3600;
+constexpr double kLongestRest_s = 24 * 3600, kLongestSession_s = 200 * 3600;
 const std::set<std::string> kModes{"real", "degraded", "augmented"};
 const std::set<std::string> kRoles{"scored", "familiarisation"};
 
@@ -123,11 +125,26 @@ std::filesystem::path besides(const Protocol& protocol, const std::string& relat
   return (protocol.file.parent_path() / relative).lexically_normal();
 }
 
+/// "3 h 20 min", "12 min".
+std::string hoursAndMinutes(double seconds) {
+  const auto minutes = static_cast<std::int64_t>(std::ceil(seconds / 60));
+  return (minutes >= 60 ? std::to_string(minutes / 60) + " h " : "") +
+         std::to_string(minutes % 60) + " min";
+}
+
+double longestSession_s(const Session& session) {
+  double seconds = 0;
+  for (const Block& block : session.blocks) seconds += longestTime_s(block);
+  return seconds;
+}
+
 Block blockIn(const JsonFile& file, const Protocol& protocol) {
   Block block;
   block.name = needName(file, "name");
   block.task = besides(protocol, file.text("task"));
-  block.engine = training::engineIn(JsonFile(block.task));
+  const JsonFile task(block.task);
+  block.engine = training::engineIn(task);
+  if (task.has("end/time_limit_s")) block.time_limit_s = task.number("end/time_limit_s", 1, 3600);
   if (file.has("role")) {
     needOneOf(file, "role", file.text("role"), kRoles);
     block.role = training::roleNamed(file.text("role"));
@@ -152,6 +169,11 @@ Session sessionIn(const JsonFile& file, const Protocol& protocol) {
   if (file.has("days_after")) session.days_after = file.integer("days_after", 0, kMostDays);
   session.blocks = namedIn<Block>(file, "blocks",
                                   [&](const JsonFile& entry) { return blockIn(entry, protocol); });
+  if (longestSession_s(session) > kLongestSession_s)
+    file.refuse("blocks", "may take up to " + hoursAndMinutes(longestSession_s(session)) +
+                              " (trials x their task's time limit, and rests); a session has at "
+                              "most " +
+                              hoursAndMinutes(kLongestSession_s));
   if (file.has("questionnaire"))
     session.questionnaire = readQuestionnaire(besides(protocol, file.text("questionnaire")));
   return session;
@@ -202,6 +224,17 @@ void readBlindness(const JsonFile& file, Protocol* protocol) {
 
 }  // namespace
 
+double longestTime_s(const Block& block) {
+  const int rests = 1 + (block.rest_after ? (block.trials - 1) / block.rest_after : 0);
+  return block.trials * block.time_limit_s + rests * block.rest_s;
+}
+
+std::string longestTimeInWords(const Protocol& protocol) {
+  double seconds = 0;
+  for (const Session& session : protocol.sessions) seconds += longestSession_s(session);
+  return "at most " + hoursAndMinutes(seconds);
+}
+
 std::string needName(const JsonFile& file, const std::string& field) {
   std::string name = file.text(field);
   if (!record::whyNoPseudonym(name).empty())
@@ -226,7 +259,7 @@ void showAlike(std::vector<StudyCondition>* conditions) {
 
 Protocol readProtocol(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
+  needKind(file, "protocol", 1);
   Protocol p;
   p.file = path;
   p.sha256 = sha256OfFile(path);

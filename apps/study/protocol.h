@@ -48,11 +48,15 @@ struct Block {
   training::Engine engine = training::Engine::needle;  ///< of the task
   training::Role role = training::Role::scored;        ///< of the trials
   int trials = 1;
-  std::string condition;  ///< by name; empty: the one that was drawn for the trainee
-  int rest_after = 0;     ///< trials; 0: no rest within the block
-  double rest_s = 0;      ///< then, and after the block
-  std::int64_t step = 0;  ///< 1, 2, ... on the way through the study
+  std::string condition;    ///< by name; empty: the one that was drawn for the trainee
+  int rest_after = 0;       ///< trials; 0: no rest within the block
+  double rest_s = 0;        ///< then, and after the block
+  std::int64_t step = 0;    ///< 1, 2, ... on the way through the study
+  double time_limit_s = 0;  ///< of each trial; 0: the task states none
 };
+
+/// How long trials and rests take when each trial lasts as long as its task lets it.
+double longestTime_s(const Block& block);
 
 struct Session {
   std::string name;
@@ -87,6 +91,9 @@ struct Protocol {
   int sessionOf(std::int64_t step) const;       ///< 1, 2, ...
   bool blind() const { return blind_trainee || blind_educator; }
 };
+
+/// Of a trainee's trials and rests in all sessions: "at most 3 h 20 min".
+std::string longestTimeInWords(const Protocol& protocol);
 
 /// Throws UsageError naming file and field: version, names, conditions that are unknown, double or
 /// not used, counts, rests, task files and their engines.

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "anatomy/base/enum_names.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "apps/study/protocol.h"
 
@@ -30,7 +31,7 @@ Item itemIn(const JsonFile& file) {
 
 Questionnaire readQuestionnaire(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
+  needKind(file, "questionnaire", 1);
   Questionnaire q{needName(file, "id"), file.text("title"), file.text("source"), {}};
   std::set<std::string> ids;
   for (const JsonFile& entry : file.entries("items")) {

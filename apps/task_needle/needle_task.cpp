@@ -13,6 +13,7 @@ using training::Outcome;
 namespace {
 
 constexpr double kContactPause = 0.5;  // s without contact before the next one is news
+constexpr double kRoom_s = 600, kTicksASecond = 1000;  // of the longest trial foreseen
 
 std::string scoresJson(const assess::TrialAssessment& a) {
   const assess::ParacentesisValues& v = a.values;
@@ -37,6 +38,9 @@ NeedleTask::NeedleTask(const NeedleTaskSetup& setup, runtime::Bus& bus, TaskChan
       sampler_(setup.X_AD, setup.X_ET),
       doses_(setup.augmentations, setup.settings.augmentations.subtaskNames()) {
   completed_.reserve(setup_.plan.size());
+  // Once, so that a later and longer trial needs no more.
+  samples_.reserve(
+      static_cast<std::size_t>(kTicksASecond * std::min(setup.settings.time_limit_s, kRoom_s)));
 }
 
 /// What a recorded hand said comes as it came.
@@ -98,8 +102,6 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
   }
   trial.assessment.augmented = plan().augmented;
   trial.assessment.doses = doses_.doses();
-  trial.samples = std::move(samples_);
-  samples_.clear();
   shown_.flows = Tissue::air;
   shown_.asked = false;
   const bool success = outcome == Outcome::success;

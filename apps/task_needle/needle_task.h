@@ -38,10 +38,10 @@ struct TrialPlan {
   int most_passes = 0;  ///< of the needle: the next one ends the trial; 0: no limit
 };
 
+/// What stays of a trial: its ticks are in the evidence.
 struct CompletedTrial {
   assess::TrialAssessment assessment;
-  std::vector<assess::TrialSample> samples;  ///< every tick of the trial
-  std::string reason;                        ///< why aborted or void
+  std::string reason;  ///< why aborted or void
 };
 
 /// Task channels beside the bus: one writer, one reader each.

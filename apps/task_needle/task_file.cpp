@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/enum_names.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/units.h"
 #include "apps/station/task_sections.h"
 #include "apps/training/engine.h"
@@ -179,7 +180,10 @@ PuncturedBlock blockIn(const JsonFile& file) {
 }  // namespace
 
 TaskSettings readTask(const std::filesystem::path& path) {
-  return readTask(station::readTaskFile(path), path.parent_path());
+  const JsonFile file = station::readTaskFile(path);
+  training::needEngine(file, training::Engine::needle);
+  needKind(file, "task_needle", 1);
+  return readTask(file, path.parent_path());
 }
 
 TaskSettings readTask(const JsonFile& file, const std::filesystem::path& folder) {

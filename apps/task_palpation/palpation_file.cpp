@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/units.h"
 #include "apps/station/task_sections.h"
 #include "apps/training/engine.h"
@@ -173,8 +174,8 @@ void requireInside(const JsonFile& file, const PalpationSettings& settings) {
 
 PalpationSettings readPalpation(const std::filesystem::path& path) {
   const JsonFile file = station::readTaskFile(path);
-  file.needVersion(1);
   training::needEngine(file, training::Engine::palpation);
+  needKind(file, "task_palpation", 1);
   PalpationSettings settings;
   settings.id = file.text("id");
   settings.title = file.text("title");

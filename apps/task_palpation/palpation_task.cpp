@@ -108,7 +108,7 @@ std::vector<assess::CaseLump> caseOf(const std::string& text) {
                        lump.at("hardness").get<int>(), lump.at("mobility").get<int>()});
     return lumps;
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("does not describe lumps (") + e.what() + ")", "event \"case\"",
+    throw Error("does not describe lumps (" + whyNoJson(text, e) + ")", "event \"case\"",
                 "Restore the file from a backup");
   }
 }
@@ -189,7 +189,6 @@ trial::TrialTask::Conclusion PalpationTask::conclude(Outcome outcome, const std:
       facts, setup_.settings.scoring.rules, setup_.settings.scoring.standard,
       lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
   trial.assessment.doses = doses_.doses();
-  trial.samples = listener_.samples();
   if (outcome == Outcome::done || outcome == Outcome::time)
     guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
   showLumps(&trial.assessment);

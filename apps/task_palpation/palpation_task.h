@@ -57,9 +57,9 @@ struct PalpationPlan {
   bool augmented = false;  ///< the task's augmentations add force
 };
 
+/// What stays of a trial: its ticks are in the evidence.
 struct CompletedPalpation {
   assess::PalpationAssessment assessment;
-  std::vector<assess::PalpationSample> samples;
   std::string reason;  ///< why aborted or void
 };
 

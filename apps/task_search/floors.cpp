@@ -72,7 +72,7 @@ Episode episodeIn(const std::string& text) {
             {said.at("orientation").get<double>(), target},
             said.at("seed").get<std::uint64_t>()};
   } catch (const nlohmann::json::exception& e) {
-    throw damaged(e.what());
+    throw damaged(whyNoJson(text, e));
   }
 }
 

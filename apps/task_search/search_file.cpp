@@ -1,13 +1,35 @@
 #include "apps/task_search/search_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "apps/station/task_sections.h"
 #include "apps/training/engine.h"
 
 namespace palpa::task_search {
 namespace {
+
+// Bumps of a texture, and places that are looked through for the bump under a finger, 1,000 times
+// a second.
+constexpr double kMostBumps = 100'000, kMostNear = 2'500;
+constexpr int kMostEpisodes = 10'000;
+
+double square(double x) { return x * x; }
+
+/// Refused before the floor is made: it would take minutes, or all memory.
+void needFewBumps(const JsonFile& file, const std::string& at, const haptics::BumpSpec& bumps) {
+  const double all = square(2 * bumps.outer / bumps.spacing),
+               near = square(2 * (bumps.radius + bumps.jitter) / bumps.spacing);
+  if (all > kMostBumps)
+    file.refuse(at + "/spacing_U",
+                "makes " + std::to_string(std::llround(all)) + " bumps on a disc; at most " +
+                    std::to_string(std::llround(kMostBumps)) + " can be felt in time");
+  if (near > kMostNear)
+    file.refuse(at + "/jitter_U",
+                "or the radius is too large for the spacing: too many bumps lie in one place");
+}
 
 haptics::BumpSpec bumpsIn(const JsonFile& file, const std::string& which,
                           const haptics::SearchSpec& spec) {
@@ -18,6 +40,7 @@ haptics::BumpSpec bumpsIn(const JsonFile& file, const std::string& which,
   bumps.jitter = file.number(at + "/jitter_U", 0, 100);
   bumps.inner = spec.pit;
   bumps.outer = spec.disc;
+  needFewBumps(file, at, bumps);
   return bumps;
 }
 
@@ -43,6 +66,10 @@ std::vector<SearchBlock> blocksIn(const JsonFile& file) {
   for (const JsonFile& block : file.entries("blocks"))
     blocks.push_back({block.text("name"), block.integer("episodes", 1, 1000),
                       block.integer("training", 0, 1) == 1});
+  int episodes = 0;
+  for (const SearchBlock& block : blocks)
+    if ((episodes += block.episodes) > kMostEpisodes)
+      file.refuse("blocks", "hold more than " + std::to_string(kMostEpisodes) + " episodes");
   return blocks;
 }
 
@@ -88,7 +115,10 @@ SearchSettings readSearch(const JsonFile& file) {
 }
 
 SearchSettings readSearch(const std::filesystem::path& path) {
-  return readSearch(station::readTaskFile(path));
+  const JsonFile file = station::readTaskFile(path);
+  training::needEngine(file, training::Engine::search);
+  needKind(file, "task_search", 1);
+  return readSearch(file);
 }
 
 haptics::FloorRendering renderingOn(const SearchSettings& task, const station::Station& station) {

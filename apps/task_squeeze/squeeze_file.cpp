@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/random.h"
 #include "apps/training/engine.h"
@@ -28,8 +29,8 @@ std::vector<double> factorsIn(const JsonFile& file, const char* property) {
 
 SqueezeSettings readSqueeze(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(1);
   training::needEngine(file, training::Engine::squeeze);
+  needKind(file, "task_squeeze", 1);
   SqueezeSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
@@ -85,7 +86,7 @@ SqueezeComparison comparisonIn(const std::string& text) {
                                                                : SqueezedProperty::stiffness,
             said.at("factors").get<std::array<double, 2>>()};
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("does not describe two things (") + e.what() + ")", "event \"case\"",
+    throw Error("does not describe two things (" + whyNoJson(text, e) + ")", "event \"case\"",
                 "Restore the file from a backup");
   }
 }

@@ -1,4 +1,5 @@
 #include "apps/training/engine.h"
+#include "anatomy/base/file_schema.h"
 
 #include <array>
 
@@ -30,6 +31,7 @@ std::optional<Engine> engineNamed(std::string_view name) {
 }
 
 Engine engineIn(const JsonFile& file) {
+  if (!file.has("engine")) refuseUnknownFields(file, "task");  // it may be there by another name
   const std::string name = file.text("engine");
   const std::optional<Engine> engine = engineNamed(name);
   if (!engine)

@@ -52,12 +52,13 @@ enum class UserCommand : std::uint8_t {
   done,
   grade,
   choose,
-  note
+  note,
+  remark
 };
 struct UserRequest {
   UserCommand command = UserCommand::start;
   /// Of a void; of a grade: what was said, as the task writes it down; of a choice: the key, "1" to
-  /// "8"; of a note: its text
+  /// "8"; of a note or of what a part of the computer has to say: its text
   std::string reason;
   double at_s = 0;  ///< of a note: the session time it is about
 };
@@ -66,7 +67,8 @@ struct UserRequest {
 struct Channels {
   runtime::EventQueue<PictureRequest> pictures_to_scene{64};
   runtime::EventQueue<UserRequest> requests_to_task{64};  ///< from the scene: keys
-  runtime::EventQueue<UserRequest> signals_to_task{4};   ///< from the system: the session shall end
+  runtime::EventQueue<UserRequest> signals_to_task{
+      16};  ///< from the system: the session shall end, a part does not answer
   runtime::EventQueue<UserRequest> operator_to_task{8};  ///< from a simulated operator
   runtime::EventQueue<UserRequest> console_to_task{
       64};  ///< from whoever looks on through the console

@@ -29,6 +29,7 @@ TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels,
 
 std::int64_t TrialTask::step(std::int64_t now_ns) {
   apply(now_ns);
+  watchStop(now_ns);
   receiveDevice();
   watchCamera(now_ns);
   listen(now_ns);
@@ -219,7 +220,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       if (status_.active()) endTrial(Outcome::voided, reason, now_ns);
       return;
     case UserCommand::emergency_stop:
-      return stopAll(now_ns);
+      return bus_.stop.press();
     case UserCommand::rearm:
       return rearm(now_ns);
     case UserCommand::quit:
@@ -229,6 +230,8 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       return;
     case UserCommand::note:
       return report(now_ns, EventKind::note, reason, request.at_s);
+    case UserCommand::remark:
+      return report(now_ns, EventKind::computer, reason);
     case UserCommand::done:
     case UserCommand::grade:
     case UserCommand::choose:
@@ -253,6 +256,14 @@ void TrialTask::goOn(std::int64_t now_ns) {
   report(now_ns, EventKind::resume, "The trial continues");
 }
 
+/// The force is gone since the tick after the press; here the trial learns of it.
+void TrialTask::watchStop(std::int64_t now_ns) {
+  const std::uint32_t presses = bus_.stop.presses();
+  if (presses == presses_seen_) return;
+  presses_seen_ = presses;
+  stopAll(now_ns);
+}
+
 void TrialTask::stopAll(std::int64_t now_ns) {
   status_.emergency_stop = true;
   status_.alarm = true;
@@ -262,6 +273,7 @@ void TrialTask::stopAll(std::int64_t now_ns) {
 }
 
 void TrialTask::rearm(std::int64_t now_ns) {
+  bus_.stop.rearm(presses_seen_);
   status_.emergency_stop = status_.alarm = false;
   if (status_.state == TrialState::running)
     status_.state = TrialState::paused;  // disarms: clears a trip
@@ -290,7 +302,6 @@ void TrialTask::publish(std::int64_t now_ns) {
   haptics::TickCommands commands;
   commands.trial = static_cast<std::uint32_t>(status_.trial);
   commands.armed = status_.state == TrialState::running;
-  commands.emergency_stop = status_.emergency_stop;
   if (status_.trial > 0) {
     commands.force_feedback = status_.force_feedback;
     command(commands);

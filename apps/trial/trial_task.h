@@ -70,6 +70,7 @@ class TrialTask : public runtime::Activity {
   void note(const runtime::Event& event);
   void apply(std::int64_t now_ns);
   void apply(const UserRequest& request, std::int64_t now_ns);
+  void watchStop(std::int64_t now_ns);
   void stopAll(std::int64_t now_ns);
   void rearm(std::int64_t now_ns);
   void leave(const std::string& reason, std::int64_t now_ns);
@@ -93,9 +94,10 @@ class TrialTask : public runtime::Activity {
   std::string camera_ = runtime::cameraTrouble(nullptr, 0);  ///< what was last said of it
   std::optional<runtime::Displaced> displaced_;              ///< as it was last said
   std::int64_t trip_ns_ = 0,
-               warm_ns_ = -1;  ///< of the last trip, of the last tick with warm drives
-  std::int64_t since_ns_ = 0;  ///< the current state began
-  std::int64_t start_ns_ = 0;  ///< of the trial
+               warm_ns_ = -1;       ///< of the last trip, of the last tick with warm drives
+  std::int64_t since_ns_ = 0;       ///< the current state began
+  std::uint32_t presses_seen_ = 0;  ///< of the emergency stop
+  std::int64_t start_ns_ = 0;       ///< of the trial
   bool quit_ = false;
 };
 

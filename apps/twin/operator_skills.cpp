@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
 
@@ -12,8 +13,8 @@ constexpr std::size_t kMostPressures = 3;
 
 /// The figures that every hand has.
 template <typename Skill>
-Skill handOf(const JsonFile& file) {
-  file.needVersion(1);
+Skill handOf(const JsonFile& file, const char* kind) {
+  needKind(file, kind, 1);
   Skill s;
   s.name = file.text("name");
   s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
@@ -27,7 +28,7 @@ Skill handOf(const JsonFile& file) {
 
 OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
   const JsonFile file(path);
-  auto s = handOf<OperatorSkill>(file);
+  auto s = handOf<OperatorSkill>(file, "operator_needle");
   s.turn_tremor_rms = kDegree * file.number("turn_tremor_rms_deg", 0, 10);
   s.depth_sd = kMm * file.number("depth_sd_mm", 0, 50);
   s.entry_sd = kMm * file.number("entry_sd_mm", 0, 50);
@@ -57,7 +58,7 @@ OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
 
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   const JsonFile file(path);
-  auto s = handOf<PalpatingSkill>(file);
+  auto s = handOf<PalpatingSkill>(file, "operator_palpation");
   s.strip = kMm * file.number("strip_mm", 1, 200);
   s.step = kMm * file.number("step_mm", 1, 200);
   s.wander = kMm * file.number("wander_mm", 0, 50);
@@ -90,7 +91,7 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
 
 SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
   const JsonFile file(path);
-  auto s = handOf<SearchingSkill>(file);
+  auto s = handOf<SearchingSkill>(file, "operator_search");
   s.press = file.number("press_N", 0.05, 20);
   s.stroke_press = file.number("stroke_press_N", 0.05, 20);
   s.scan_speed = kMm * file.number("scan_speed_mm_per_s", 1, 500);
@@ -108,7 +109,7 @@ SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
 
 SqueezingSkill readSqueezingSkill(const std::filesystem::path& path) {
   const JsonFile file(path);
-  auto s = handOf<SqueezingSkill>(file);
+  auto s = handOf<SqueezingSkill>(file, "operator_squeeze");
   s.close_speed = kMm * file.number("close_speed_mm_per_s", 0.1, 500);
   s.hold = file.number("hold_N", 0.05, 20);
   s.squeeze = file.number("squeeze_N", 0.05, 20);

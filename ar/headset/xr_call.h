@@ -57,7 +57,6 @@ class XrOwned {
     if (handle_) Destroy(handle_);
   }
   T get() const { return handle_; }
-  void leave() { handle_ = {}; }  ///< not given back: its runtime hangs
 
  private:
   T handle_{};

@@ -140,11 +140,6 @@ void XrControls::locate(XrSession session, XrSpace base, XrTime time, std::size_
   if (hand->tracked) hand->X_LG = poseFromXr(where.pose);
 }
 
-void XrControls::leave() {
-  for (XrOwnedSpace& space : spaces_) space.leave();
-  set_.leave();
-}
-
 void XrControls::vibrate(XrSession session, std::size_t hand, double seconds, double strength) {
   const XrHapticVibration pulse{
       XR_TYPE_HAPTIC_VIBRATION, nullptr, std::max<XrDuration>(std::llround(1e9 * seconds), 1),

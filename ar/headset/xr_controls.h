@@ -21,7 +21,6 @@ class XrControls {
 
   /// Reads all at a time of the runtime's. `base`: the space that poses are in.
   ButtonPresses read(XrSession session, XrSpace base, XrTime time, std::array<HandInput, 2>* hands);
-  void leave();  ///< gives nothing back
   void vibrate(XrSession session, std::size_t hand, double seconds, double strength);
 
  private:

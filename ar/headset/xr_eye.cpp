@@ -1,6 +1,7 @@
 #include "ar/headset/xr_eye.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ar/headset/xr_runtime.h"
 
@@ -39,22 +40,21 @@ XrEye::XrEye(XrSession session, const XrViewConfigurationView& view, std::int64_
   textures_ = texturesOf(swapchain_.get());
 }
 
-void XrEye::draw(const std::function<void(const EyeTexture&)>& draw) {
-  std::uint32_t next = 0;
-  xrCheck(xrAcquireSwapchainImage(swapchain_.get(), nullptr, &next), "xrAcquireSwapchainImage");
+void XrEye::take() {
+  xrCheck(xrAcquireSwapchainImage(swapchain_.get(), nullptr, &current_), "xrAcquireSwapchainImage");
   const XrSwapchainImageWaitInfo patience{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, kPatience};
   XrResult waited = XR_TIMEOUT_EXPIRED;
   for (int i = 0; i < kTries && waited == XR_TIMEOUT_EXPIRED; ++i)
     waited = xrCheck(xrWaitSwapchainImage(swapchain_.get(), &patience), "xrWaitSwapchainImage");
   if (waited == XR_TIMEOUT_EXPIRED) throw XrFailure(XR_ERROR_SESSION_LOST, "xrWaitSwapchainImage");
-  const auto release = [this] { return xrReleaseSwapchainImage(swapchain_.get(), nullptr); };
-  try {
-    draw({textures_.at(next), format_, width_, height_});
-  } catch (...) {
-    release();
-    throw;
-  }
-  xrCheck(release(), "xrReleaseSwapchainImage");
+  taken_ = true;
+}
+
+EyeTexture XrEye::picture() const { return {textures_.at(current_), format_, width_, height_}; }
+
+void XrEye::giveBack() {
+  if (!std::exchange(taken_, false)) return;
+  xrCheck(xrReleaseSwapchainImage(swapchain_.get(), nullptr), "xrReleaseSwapchainImage");
 }
 
 XrSwapchainSubImage XrEye::shown() const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "ar/headset/headset.h"
@@ -12,18 +11,21 @@ namespace palpa::ar {
 class XrEye {
  public:
   XrEye(XrSession session, const XrViewConfigurationView& view, std::int64_t format);
-  /// Takes the next picture, has it drawn, and gives it back.
-  void draw(const std::function<void(const EyeTexture&)>& draw);
+  void take();  ///< the next picture, to be drawn into
+  bool taken() const { return taken_; }
+  EyeTexture picture() const;  ///< that was taken
+  void giveBack();             ///< if one was taken
   int width() const { return width_; }
   int height() const { return height_; }
   XrSwapchainSubImage shown() const;
-  void leave() { swapchain_.leave(); }  ///< gives nothing back
 
  private:
   XrOwnedSwapchain swapchain_;
   std::int64_t format_;
   int width_, height_;
   std::vector<std::uint32_t> textures_;
+  std::uint32_t current_ = 0;
+  bool taken_ = false;
 };
 
 /// What both eyes' pictures are made of. Throws XrFailure where nothing suits.

@@ -33,6 +33,7 @@ void requireVersion(XrVersion least) {
   const auto words = [](std::uint64_t a, std::uint64_t b) {
     return std::to_string(a) + "." + std::to_string(b);
   };
+  if (major == 0) return;  // no context: the runtime says so
   if (XR_MAKE_VERSION(major, minor, 0) >=
       XR_MAKE_VERSION(XR_VERSION_MAJOR(least), XR_VERSION_MINOR(least), 0))
     return;
@@ -56,6 +57,25 @@ std::vector<const char*> graphicsExtensions(GlPlatform kind) {
   std::vector<const char*> names{XR_KHR_OPENGL_ENABLE_EXTENSION_NAME};
   if (kind == GlPlatform::egl) names.push_back(XR_MNDX_EGL_ENABLE_EXTENSION_NAME);
   return names;
+}
+
+bool takeContext(const GlBinding& gl) {
+  if (!gl.context) return true;
+  if (gl.kind == GlPlatform::egl)
+    return eglBindAPI(EGL_OPENGL_API) &&
+           eglMakeCurrent(gl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl.context);
+  return glXMakeCurrent(static_cast<Display*>(gl.display), gl.drawable,
+                        static_cast<GLXContext>(gl.context));
+}
+
+void letGoOfContext(const GlBinding& gl) {
+  if (!gl.context) return;
+  if (gl.kind == GlPlatform::egl) {
+    if (eglGetCurrentContext() == gl.context)
+      eglMakeCurrent(gl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  } else if (glXGetCurrentContext() == gl.context) {
+    glXMakeCurrent(static_cast<Display*>(gl.display), None, nullptr);
+  }
 }
 
 XrOwnedSession makeSession(XrInstance instance, XrSystemId system, const GlBinding& gl) {

@@ -1,266 +1,166 @@
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
+#include <exception>
 #include <utility>
 
 #include "anatomy/base/error.h"
-#include "ar/headset/xr_call.h"
-#include "ar/headset/xr_controls.h"
-#include "ar/headset/xr_eye.h"
-#include "ar/headset/xr_frame_wait.h"
-#include "ar/headset/xr_runtime.h"
+#include "ar/headset/xr_frames.h"
+#include "ar/headset/xr_thread.h"
 
 namespace palpa::ar {
 namespace {
 
-constexpr XrViewStateFlags kTurned = XR_VIEW_STATE_ORIENTATION_VALID_BIT,
-                           kPlaced = XR_VIEW_STATE_POSITION_VALID_BIT;
+constexpr const char* kSilence = "the headset's runtime does not answer";
+constexpr const char* kNoContext =
+    "the graphics driver does not let the headset's pictures be drawn";
 
-XrOwnedSpace localSpace(XrSession session) {
-  const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr,
-                                        XR_REFERENCE_SPACE_TYPE_LOCAL, identityXr()};
-  XrSpace space = XR_NULL_HANDLE;
-  xrCheck(xrCreateReferenceSpace(session, &info, &space), "xrCreateReferenceSpace");
-  return XrOwnedSpace(space);
+/// What the runtime's thread works with while it is busy, and its user while it is not.
+struct XrShared {
+  GlBinding gl;
+  bool has_context = false;
+  std::unique_ptr<XrFrames> frames;
+  std::exception_ptr refusal;
+};
+
+void openFrames(XrShared& shared) {
+  try {
+    if (!shared.has_context) throw Error(kNoContext, "headset", "Update the graphics driver");
+    shared.frames = std::make_unique<XrFrames>(shared.gl);
+  } catch (...) {
+    shared.refusal = std::current_exception();
+  }
+}
+
+void closeFrames(XrShared& shared) {
+  shared.frames->finish();
+  shared.frames.reset();
 }
 
 class XrHeadset final : public Headset {
  public:
-  explicit XrHeadset(const GlBinding& gl)
-      : runtime_(openRuntime(gl.kind)),
-        session_(makeSession(runtime_.instance.get(), runtime_.system, gl)) {
-    const std::int64_t format = formatFor(session_.get(), blendOf(runtime_.blend));
-    for (std::size_t i = 0; i < 2; ++i) {
-      pictures_[i].emplace(session_.get(), runtime_.views[i], format);
-      frame_.eyes[i].width = pictures_[i]->width();
-      frame_.eyes[i].height = pictures_[i]->height();
+  XrHeadset(const GlBinding& gl, const HeadsetPatience& patience)
+      : patience_(patience), shared_(std::make_shared<XrShared>()) {
+    shared_->gl = gl;
+    start(openFrames);
+    if (!thread_.wait(patience_.opening)) {
+      leaveBehind(shared_);
+      throw Error(kSilence, "headset", "Start the headset's own software again");
     }
-    local_ = localSpace(session_.get());
-    wait_.emplace(session_.get());
-    controls_.emplace(runtime_.instance.get(), session_.get());
+    if (shared_->refusal) std::rethrow_exception(std::exchange(shared_->refusal, nullptr));
+    blend_ = shared_->frames->blend();
+    name_ = shared_->frames->name();
+    frame_ = shared_->frames->frame();
   }
 
   ~XrHeadset() override {
-    if (state_ == HeadsetState::running) endSession();
-    if (!wait_->settled()) leaveAll();
+    if (!silent_) thread_.wait(patience_.silent);
+    if (!thread_.busy()) {
+      start(closeFrames);
+      thread_.wait(patience_.closing);
+    }
+    if (thread_.busy()) leaveBehind(shared_);
   }
 
   std::optional<HeadsetFrame> begin() override {
-    return guarded([&]() -> std::optional<HeadsetFrame> {
-      followEvents();
-      if (state_ != HeadsetState::running) return std::nullopt;
-      const std::optional<XrFrameState> waited = wait_->next();
-      if (!waited) {
-        if (++unanswered_ >= kMostUnanswered) lose("the headset does not answer");
-        return std::nullopt;
-      }
-      unanswered_ = 0;
-      const XrFrameState& timing = *waited;
-      xrCheck(xrBeginFrame(session_.get(), nullptr), "xrBeginFrame");
-      time_ = timing.predictedDisplayTime;
-      frame_.draw = timing.shouldRender == XR_TRUE;
-      locateEyes();
-      const ButtonPresses asked =
-          controls_->read(session_.get(), local_.get(), time_, &frame_.hands);
-      const bool moved = moves_at_ && *moves_at_ <= time_;
-      if (moved) moves_at_.reset();
-      frame_.recentred = moved || first_place_ || asked.recentre;
-      frame_.start = asked.start;
-      return frame_;
-    });
+    const bool late = beginning_ && !silent_;
+    if (!answered()) return std::nullopt;
+    if (late && shared_->frames->ready()) return taken();
+    if (state_ == HeadsetState::lost) return std::nullopt;
+    beginning_ = true;
+    if (!run([](XrFrames& frames) { frames.next(); })) return std::nullopt;
+    return taken();
   }
 
   void end(const Draw& draw) override {
-    guarded([&]() -> std::optional<HeadsetFrame> {
-      if (state_ == HeadsetState::lost) return std::nullopt;
-      const bool shown = draw && frame_.draw && ever_located_;
-      std::array<XrCompositionLayerProjectionView, 2> seen;
-      for (std::size_t i = 0; i < 2 && shown; ++i) {
-        pictures_[i]->draw([&](const EyeTexture& picture) { draw(i, picture); });
-        seen[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, nullptr, views_[i].pose,
-                   views_[i].fov, pictures_[i]->shown()};
-      }
-      const XrCompositionLayerFlags alpha =
-          runtime_.blend == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND
-              ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT
-              : 0;
-      const XrCompositionLayerProjection layer{
-          XR_TYPE_COMPOSITION_LAYER_PROJECTION, nullptr, alpha, local_.get(), 2, seen.data()};
-      const auto* const layers = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
-      const XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO, nullptr,         time_,
-                                runtime_.blend,         shown ? 1u : 0u, shown ? &layers : nullptr};
-      xrCheck(xrEndFrame(session_.get(), &info), "xrEndFrame");
-      return std::nullopt;
-    });
+    if (!answered() || !shared_->frames->ready()) return;
+    const bool drawn = draw && shared_->frames->canDraw();
+    if (drawn) drawBoth(draw);
+    run([drawn](XrFrames& frames) { frames.show(drawn); });
   }
 
   void vibrate(std::size_t hand, double seconds, double strength) override {
-    guarded([&]() -> std::optional<HeadsetFrame> {
-      if (state_ == HeadsetState::running)
-        controls_->vibrate(session_.get(), hand, seconds, strength);
-      return std::nullopt;
-    });
+    if (silent_ || thread_.busy() || state_ != HeadsetState::running) return;
+    run([=](XrFrames& frames) { frames.vibrate(hand, seconds, strength); });
   }
 
-  HeadsetState state() const override { return state_; }
-  Blend blend() const override { return blendOf(runtime_.blend); }
+  HeadsetState state() const override { return silent_ ? HeadsetState::silent : state_; }
+  Blend blend() const override { return blend_; }
   const std::array<EyeView, 2>& eyes() const override { return frame_.eyes; }
-  std::string describe() const override { return runtime_.name; }
-  std::string trouble() const override { return trouble_; }
+  std::string describe() const override { return name_; }
+  std::string trouble() const override {
+    return silent_ ? std::string(kSilence) + "; the session goes on without it" : trouble_;
+  }
+  int silences() const override { return silences_; }
 
  private:
-  /// A runtime that fails in use ends the headset, not the program.
-  template <class Do>
-  std::optional<HeadsetFrame> guarded(Do act) {
-    try {
-      return act();
-    } catch (const XrFailure& failure) {
-      lose(inWords(failure).what);
-    } catch (const std::exception& failure) {  // of whoever draws
-      lose(failure.what());
-    }
-    return std::nullopt;
-  }
-
-  void lose(const std::string& why) {
-    state_ = HeadsetState::lost;
-    trouble_ = why;
-  }
-
-  void followEvents() {
-    XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
-    while (state_ != HeadsetState::lost &&
-           xrCheck(xrPollEvent(runtime_.instance.get(), &event), "xrPollEvent") == XR_SUCCESS) {
-      const auto* const base = reinterpret_cast<const XrEventDataBaseHeader*>(&event);
-      if (base->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING)
-        lose("the headset's runtime is being closed");
-      if (base->type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING)
-        follow(*reinterpret_cast<const XrEventDataReferenceSpaceChangePending*>(&event));
-      if (base->type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED)
-        follow(reinterpret_cast<const XrEventDataSessionStateChanged*>(&event)->state);
-      event = {XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
-    }
-  }
-
-  void follow(const XrEventDataReferenceSpaceChangePending& change) {
-    if (change.referenceSpaceType == XR_REFERENCE_SPACE_TYPE_LOCAL)
-      moves_at_ = std::min(moves_at_.value_or(change.changeTime), change.changeTime);
-  }
-
-  void follow(XrSessionState next) {
-    switch (next) {
-      case XR_SESSION_STATE_READY: {
-        const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, kTwoEyes};
-        xrCheck(xrBeginSession(session_.get(), &info), "xrBeginSession");
-        state_ = HeadsetState::running;
-        break;
-      }
-      case XR_SESSION_STATE_STOPPING:
-        state_ = HeadsetState::waiting;
-        xrCheck(xrEndSession(session_.get()), "xrEndSession");
-        wait_->forget();  // it may still have been waited for
-        break;
-      case XR_SESSION_STATE_EXITING:
-        return lose("the headset's session was ended there");
-      case XR_SESSION_STATE_LOSS_PENDING:
-        return lose("the headset was lost");
-      default:
-        break;
-    }
-  }
-
-  void locateEyes() {
-    const XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, kTwoEyes, time_, local_.get()};
-    XrViewState flags{XR_TYPE_VIEW_STATE, nullptr, 0};
-    std::uint32_t count = 0;
-    std::array<XrView, 2> views;
-    views.fill({XR_TYPE_VIEW, nullptr, identityXr(), {}});
-    xrCheck(xrLocateViews(session_.get(), &info, &flags, 2, &count, views.data()), "xrLocateViews");
-    frame_.head_known = (flags.viewStateFlags & kTurned) != 0 && count == 2;
-    if (!frame_.head_known) return;
-    const bool placed = (flags.viewStateFlags & kPlaced) != 0;
-    if (!placed) stayInPlace(&views);
-    first_place_ = placed && !std::exchange(ever_placed_, placed || ever_placed_);
-    ever_located_ = true;
-    views_ = views;
-    for (std::size_t i = 0; i < 2; ++i) {
-      EyeView& eye = frame_.eyes[i];
-      eye.left = std::tan(views[i].fov.angleLeft);
-      eye.right = std::tan(views[i].fov.angleRight);
-      eye.up = std::tan(views[i].fov.angleUp);
-      eye.down = std::tan(views[i].fov.angleDown);
-      eye.X_LE = poseFromXr(views[i].pose);
-    }
-  }
-
-  /// Where a runtime knows how the head is turned but not where it is: it stays where it was, and
-  /// the eyes turn about its middle.
-  void stayInPlace(std::array<XrView, 2>* views) const {
-    const Pose before[] = {poseFromXr(views_[0].pose), poseFromXr(views_[1].pose)};
-    const Vec3 middle = ever_located_
-                            ? Vec3(0.5 * (before[0].translation() + before[1].translation()))
-                            : Vec3(Vec3::Zero());
-    const double half = ever_located_
-                            ? 0.5 * (before[1].translation() - before[0].translation()).norm()
-                            : kHalfApart;
-    for (std::size_t i = 0; i < 2; ++i) {
-      (*views)[i].pose.position = {0, 0, 0};
-      const Vec3 p =
-          middle + poseFromXr((*views)[i].pose).linear() * Vec3(i == 0 ? -half : half, 0, 0);
-      (*views)[i].pose.position = positionToXr(p);
-    }
-  }
-
-  /// A session must be ended before it goes: asked to stop, told that it stops, ended.
-  void endSession() {
-    guarded([&]() -> std::optional<HeadsetFrame> {
-      xrCheck(xrRequestExitSession(session_.get()), "xrRequestExitSession");
-      for (int i = 0; i < kPollsAtEnd && state_ == HeadsetState::running; ++i) {
-        followEvents();
-        if (state_ != HeadsetState::running) break;
-        if (const auto frame = begin()) {  // a runtime may wait for frames before it stops
-          frame_.draw = false;
-          end({});
-        }
-      }
-      return std::nullopt;
+  /// With the context, which the calling thread gives up for it.
+  template <class Step>
+  void start(Step step) {
+    letGoOfContext(shared_->gl);
+    thread_.start([shared = shared_, step] {
+      shared->has_context = takeContext(shared->gl);
+      if (!shared->has_context && shared->frames) shared->frames->lose(kNoContext);
+      step(*shared);
+      letGoOfContext(shared->gl);
     });
   }
 
-  /// What a hanging runtime holds cannot be given back.
-  void leaveAll() {
-    keepLibrariesLoaded();
-    controls_->leave();
-    local_.leave();
-    for (std::optional<XrEye>& pictures : pictures_) pictures->leave();
-    session_.leave();
-    runtime_.instance.leave();
+  /// Whether it was done in time.
+  template <class Calls>
+  bool run(Calls calls) {
+    start([calls](XrShared& shared) { calls(*shared.frames); });
+    return answered();
   }
 
-  static constexpr double kHalfApart =
-      0.0315;  // m, half the mean distance of adults' eyes (Dodgson 2004)
-  static constexpr int kMostUnanswered = 20;  // of XrFrameWait's patience
-  static constexpr int kPollsAtEnd = 30;
+  /// Whether the runtime's thread has done what it was given; waits for it, but not for one that is
+  /// silent.
+  bool answered() {
+    const auto left = patience_.silent - thread_.busyFor();
+    if (!thread_.wait(silent_ ? left.zero() : std::min(patience_.frame, left))) {
+      if (!silent_ && thread_.busyFor() >= patience_.silent) {
+        silent_ = true;
+        ++silences_;
+      }
+      return false;
+    }
+    silent_ = false;
+    state_ = shared_->frames->state();
+    trouble_ = shared_->frames->trouble();
+    return true;
+  }
 
-  XrRuntime runtime_;
-  XrOwnedSession session_;
-  std::array<std::optional<XrEye>, 2> pictures_;
-  XrOwnedSpace local_;
-  std::optional<XrFrameWait> wait_;
-  int unanswered_ = 0;
-  std::optional<XrControls> controls_;
+  std::optional<HeadsetFrame> taken() {
+    beginning_ = false;
+    if (!shared_->frames->ready()) return std::nullopt;
+    frame_ = shared_->frames->frame();
+    return frame_;
+  }
+
+  void drawBoth(const Draw& draw) {
+    try {
+      for (std::size_t i = 0; i < 2; ++i) draw(i, shared_->frames->picture(i));
+    } catch (const std::exception& failure) {
+      shared_->frames->lose(failure.what());
+    }
+  }
+
+  const HeadsetPatience patience_;
+  std::shared_ptr<XrShared> shared_;
+  XrThread thread_;
+  bool beginning_ = false;  // the frame that begins was asked for and not taken yet
+  bool silent_ = false;
+  int silences_ = 0;
   HeadsetState state_ = HeadsetState::waiting;
-  bool ever_located_ = false, ever_placed_ = false, first_place_ = false;
-  XrTime time_ = 0;
-  std::optional<XrTime> moves_at_;  // when L will be somewhere else
-  std::array<XrView, 2> views_{};
+  Blend blend_ = Blend::opaque;
   HeadsetFrame frame_;
-  std::string trouble_;
+  std::string name_, trouble_;
 };
 
 }  // namespace
 
-std::unique_ptr<Headset> openHeadset(const GlBinding& gl) try {
-  return std::make_unique<XrHeadset>(gl);
+std::unique_ptr<Headset> openHeadset(const GlBinding& gl, const HeadsetPatience& patience) try {
+  setenv("XR_LOADER_DEBUG", "none", 0);  // what it would print is said in our words
+  return std::make_unique<XrHeadset>(gl, patience);
 } catch (const XrFailure& failure) {
   const XrWords words = inWords(failure);
   throw Error(words.what, "headset", words.advice);

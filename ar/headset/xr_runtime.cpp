@@ -1,7 +1,6 @@
 #include "ar/headset/xr_runtime.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <vector>
 
@@ -75,7 +74,6 @@ Blend blendOf(XrEnvironmentBlendMode mode) {
 }
 
 XrRuntime openRuntime(GlPlatform kind) try {
-  setenv("XR_LOADER_DEBUG", "none", 0);  // what it would print is said in our words
   XrRuntime runtime;
   runtime.instance = makeInstance(graphicsExtensions(kind));
   const XrInstance instance = runtime.instance.get();

@@ -35,6 +35,11 @@ namespace palpa::ar {
 /// Names of the extensions by which a context of this kind is handed over.
 std::vector<const char*> graphicsExtensions(GlPlatform kind);
 
+/// Makes it the calling thread's; false: it cannot be had. (Nothing is taken where there is none.)
+bool takeContext(const GlBinding& gl);
+/// The calling thread's no more, if it is.
+void letGoOfContext(const GlBinding& gl);
+
 /// Asks for the runtime's requirements, as it must be asked, and makes the session.
 XrOwnedSession makeSession(XrInstance instance, XrSystemId system, const GlBinding& gl);
 

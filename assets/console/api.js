@@ -58,7 +58,7 @@ async function sentence(response) {
   );
 }
 
-async function send(method, path, body) {
+async function send(method, path, body, patience_ms = kPatience_ms) {
   const headers =
     method === "POST"
       ? { "Content-Type": "application/json", "X-Palpa-Page": pageKey, "X-Palpa-Write": nonce() }
@@ -70,7 +70,7 @@ async function send(method, path, body) {
       headers,
       cache: "no-store",
       body: method === "POST" ? JSON.stringify(body ?? {}) : undefined,
-      signal: AbortSignal.timeout(kPatience_ms),
+      signal: AbortSignal.timeout(patience_ms),
     });
   } catch {
     reportConnection(false);
@@ -117,9 +117,10 @@ export async function get(path) {
  * A write. A page key from before the server's last start is renewed once: what was
  * refused has not been done.
  */
-export async function post(path, body) {
-  let response = await send("POST", path, body);
-  if (refused(response) && (await renewed(path))) response = await send("POST", path, body);
+export async function post(path, body, patience_ms) {
+  let response = await send("POST", path, body, patience_ms);
+  if (refused(response) && (await renewed(path)))
+    response = await send("POST", path, body, patience_ms);
   return answerOf(response);
 }
 

@@ -4,11 +4,13 @@ import { announce, h, put, say } from "./dom.js";
 import { askVoidReason, confirmed } from "./dialog.js";
 import { during, notice } from "./parts.js";
 
-const kTries = 5;
+const kTries = 6,
+  kStopPatience_ms = 2000;
 
 export class LiveControls {
   constructor(life, id) {
     this.path = url("/api/sessions", id, "command");
+    this.stopPath = url("/api/sessions", id, "stop");
     this.status = { state: "checking", trial: 1, trials: 1 };
     this.said = h("div", { class: "said", role: "status" });
     this.go = this.#button("Start the trial", "primary", () =>
@@ -91,13 +93,19 @@ export class LiveControls {
     return post(this.path, { command, ...more });
   }
 
+  /** By its own way, before which no limit stands; every third time with the other requests. */
+  #askToStop(n) {
+    if (n % 3 === 2) return this.#command("stop");
+    return post(this.stopPath, {}, kStopPatience_ms);
+  }
+
   /** Asks nothing, and asks the station again until it has heard. */
   async #emergency() {
     if (this.over) return;
     put(this.said, notice("work", "Emergency stop: sent to the station…"));
     for (let n = 0; n < kTries; ++n) {
       try {
-        await this.#command("stop");
+        await this.#askToStop(n);
         put(this.said, notice("note", "The station has received the emergency stop."));
         announce("The station has received the emergency stop.");
         return;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::haptics {
 namespace {
 
@@ -22,7 +24,7 @@ struct Implicit {
 Implicit implicitly(const HuntCrossley& law, double x, double before, double dt) noexcept {
   const double rate = (x - before) / dt, factor = law.k + law.b * rate,
                least = 0.1 * law.k;  // as forceOf and stiffnessOf have it, with one power for all
-  const double at = std::max(x, kBedFloor), power = std::pow(at, law.m - 1);
+  const double at = std::max(x, kBedFloor), power = pinned::pow(at, law.m - 1);
   const double held = std::max(factor, least);
   Implicit i;
   i.f = x == at ? power * at * held : forceOf(law, x, rate);

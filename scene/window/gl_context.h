@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "scene/window/stop_key.h"
+
 class vtkRenderWindow;
 
 namespace palpa::scene {
@@ -26,8 +28,10 @@ class GlContextProvider {
   virtual bool interactive() const = 0;      ///< a window a person can see
   virtual const char* describe() const = 0;  ///< "X11 window", "surfaceless EGL", ...
   virtual NativeContext native() = 0;        ///< and makes it current
-  void makeCurrent();                        ///< on the calling thread
-  void neverWait();                          ///< frames do not wait for the monitor's
+  /// Of a window at an X server, which hears its space bar past whoever draws; null: none.
+  virtual std::unique_ptr<StopKey> stopKey() { return nullptr; }
+  void makeCurrent();  ///< on the calling thread
+  void neverWait();    ///< frames do not wait for the monitor's
 };
 std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int height,
                                                  const char* title);

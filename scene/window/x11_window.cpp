@@ -3,7 +3,11 @@
 #include <vtkRenderWindow.h>
 #include <vtkSmartPointer.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <future>
+#include <mutex>
+#include <utility>
 
 #include "anatomy/base/error.h"
 // X11's headers define macros with everyday names: after all others.
@@ -11,6 +15,38 @@
 
 namespace palpa::scene {
 namespace {
+
+std::mutex lost_mutex;
+std::function<void()> tell_lost;
+bool listened_to = false;
+
+/// False: nobody wants to know.
+bool tellLost() {
+  const std::lock_guard lock(lost_mutex);
+  if (tell_lost) std::exchange(tell_lost, nullptr)();
+  return listened_to;
+}
+
+void endWithoutWindow() {
+  std::fprintf(stderr,
+               "palpa: the window is gone: the X server ended, or another program closed "
+               "it. Start again on a display that stays\n");
+  std::_Exit(EXIT_FAILURE);
+}
+
+/// Most of all that another program has destroyed the window: what still is drawn into it goes
+/// nowhere.
+int noteXError(::Display*, XErrorEvent*) {
+  if (!tellLost()) endWithoutWindow();
+  return 0;
+}
+
+/// Xlib ends the program when this returns.
+int parkWithoutServer(::Display*) {
+  if (!tellLost()) endWithoutWindow();
+  std::promise<void>().get_future().wait();
+  return 0;
+}
 
 class X11Provider : public GlContextProvider {
  public:
@@ -20,6 +56,8 @@ class X11Provider : public GlContextProvider {
     window_->SetSize(width, height);
     window_->SetDPI(72);  // text sizes are pixels
     if (!visible) window_->SetOffScreenRendering(1);
+    XSetErrorHandler(noteXError);
+    XSetIOErrorHandler(parkWithoutServer);
   }
   ~X11Provider() override { window_->Finalize(); }
 
@@ -27,6 +65,7 @@ class X11Provider : public GlContextProvider {
   bool interactive() const override { return visible_; }
   const char* describe() const override { return visible_ ? "X11 window" : "offscreen X11"; }
   NativeContext native() override;
+  std::unique_ptr<StopKey> stopKey() override;
 
  private:
   bool visible_;
@@ -63,7 +102,19 @@ NativeContext X11Provider::native() {
   return native;
 }
 
+std::unique_ptr<StopKey> X11Provider::stopKey() {
+  window_->Start();  // makes the window where there is none
+  return std::make_unique<StopKey>(
+      static_cast<unsigned long>(reinterpret_cast<std::uintptr_t>(window_->GetGenericWindowId())));
+}
+
 }  // namespace
+
+void whenWindowIsLost(std::function<void()> lost) {
+  const std::lock_guard guard(lost_mutex);
+  listened_to = lost != nullptr;
+  tell_lost = std::move(lost);
+}
 
 namespace {
 

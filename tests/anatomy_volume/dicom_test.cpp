@@ -146,6 +146,28 @@ TEST_F(DicomSeries, DamageGivesAVolumeOrAClearWord) {
   palpa::test::expectLessThan2GiB();
 }
 
+/// A length that the file does not have, or one that is read in another way, would take gigabytes.
+TEST_F(DicomSeries, ASliceThatStatesMoreThanItHoldsIsLeftAlone) {
+  const auto with = [&](const std::string& from, const std::string& to) {
+    for (int n = 0; n < 5; ++n) write(n, "1.2.3", std::to_string(n));
+    const std::filesystem::path file = folder_ / "2";  // what is left would be uneven
+    std::ifstream in(file, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::size_t at = bytes.find(from);
+    EXPECT_NE(at, std::string::npos);
+    bytes.replace(at, from.size(), to);
+    std::ofstream(file, std::ios::binary) << bytes;
+    return complaint();
+  };
+  ASSERT_EQ(with("chest", "chest"), "");
+  const std::string syntax = "1.2.840.10008.1.2.1", pixels("\xe0\x7f\x10\0OW\0\0", 8);
+  EXPECT_NE(with(syntax, "1.2.840.10008.1.2.2"), "");
+  EXPECT_NE(with(syntax + std::string(1, '\0'), "1.2.840.10008.1.2" + std::string(3, '\0')), "");
+  EXPECT_NE(with(pixels, std::string("\xe0\x7f\x10\0XX\0\0", 8)), "");
+  const std::string nested("\x30\x10SQ\0\0\xff\xff\xff\xff\xfe\xff\0\xe0\0\0\0\x70", 18);
+  EXPECT_NE(with(std::string("\x30\0DS", 4), nested), "");
+}
+
 TEST_F(DicomSeries, AFolderWithoutSlicesIsSaid) {
   EXPECT_NE(complaint().find("holds no DICOM slices"), std::string::npos);
 }

@@ -104,6 +104,19 @@ TEST(CalibrationFile, AFieldOfAnotherTypeIsNamed) {
       << whyRefused(file);
 }
 
+TEST(CalibrationFile, ACovarianceOfTooManyNamesTakesNoMemory) {
+  const test::ScratchFolder folder("calibration_file_large");
+  const std::filesystem::path file = folder / "tool.json";
+  nlohmann::json body = parseJson(textOf(aCalibration()));
+  const std::size_t many = 200'000;
+  body["covariance"] = {{"coordinates", std::vector<std::string>(many, "x")},
+                        {"matrix", std::vector<int>(many, 0)}};
+  body.erase("sha256");
+  body["sha256"] = sha256(body.dump());
+  write(file, body.dump());
+  EXPECT_TRUE(says(whyRefused(file), "has more than 1000 names")) << whyRefused(file);
+}
+
 TEST(CalibrationFile, WhatIsNoResultIsNotWritten) {
   const test::ScratchFolder folder("calibration_file_nan");
   const auto refused = [&](auto spoil) {

@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
+#include <fstream>
 
 #include "apps/record/session_file.h"
 #include "program.h"
@@ -67,6 +69,23 @@ TEST(HeadsetSession, WithoutARuntimeTheDesktopViewGoesOnAndOneLineSaysSo) {
   EXPECT_TRUE(says(outcome.err, "no OpenXR runtime is there")) << outcome.err;
   EXPECT_TRUE(says(outcome.err, "continues on the desktop")) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(here / "A/report.html"));
+}
+
+/// Its process is stopped in the middle of a trial, and stays so. (Call by call: test_headset,
+/// HungCall.)
+TEST(HeadsetSession, OneWhoseRuntimeIsStoppedHoldsNeitherTheTrialNorTheEndUp) {
+  const Folder here;
+  const std::filesystem::path number = here / "runtime.txt";
+  const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=96x80,96x80;service=" + number.string());
+  Running running(onHeadset({"--operator", "expert"}), here.path());
+  ASSERT_TRUE(trialRuns(here / "A/session.palpa", running));
+  int runtime = 0;
+  std::ifstream(number) >> runtime;
+  ASSERT_GT(runtime, 1);
+  ASSERT_EQ(kill(runtime, SIGSTOP), 0);
+  usleep(5'000'000);  // more than it takes to be said
+  EXPECT_EQ(running.interrupt(), 0);
+  EXPECT_TRUE(says(contentOf(here / "A/report.html"), "runtime does not answer"));
 }
 
 /// A person without a window and without a headset has nothing to look at.

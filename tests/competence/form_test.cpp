@@ -38,7 +38,7 @@ std::string spoilt(const std::string& what, const std::string& with) {
 }
 
 TEST(Forms, DamagedFilesAreNamedWithTheirField) {
-  EXPECT_NE(refusal([] { parseChecklist("{", "list.json"); }).find("list.json: is not JSON"),
+  EXPECT_NE(refusal([] { parseChecklist("{", "list.json"); }).find("list.json: is not valid JSON"),
             std::string::npos);
   const std::pair<std::pair<const char*, const char*>, const char*> spoilt_texts[] = {
       {{"\"version\": 1", "\"version\": 2"}, "list.json: field \"version\" is newer"},
@@ -51,8 +51,10 @@ TEST(Forms, DamagedFilesAreNamedWithTheirField) {
       {{"\"judged_by\": \"rater\"", "\"judged_by\": \"nobody\""},
        "is \"nobody\"; it must be \"rater\" or \"simulator\""},
       {{"\"share_pct\": 98", "\"share_pct\": 980"}, "field \"share_pct\" is 980, outside 1 to 100"},
-      {{"\"standards\"", "\"standard\""}, "field \"standards\" must be a list"},
-      {{"\"source\": \"Items", "\"sauce\": \"Items"}, "field \"source\" is missing"},
+      {{"\"standards\"", "\"standard\""},
+       "field \"standard\" is unknown (did you mean \"standards\"?)"},
+      {{"\"source\": \"Items", "\"sauce\": \"Items"},
+       "field \"sauce\" is unknown (did you mean \"source\"?)"},
       {{"\"major\": 17", "\"major\": -17"}, "field \"levels/competent/major\" is -17, outside"}};
   for (const auto& [change, words] : spoilt_texts) {
     const std::string said = spoilt(change.first, change.second);

@@ -93,6 +93,38 @@ TEST(DeadlineStream, SilenceAndAMomentThatIsOverAreCut) {
   EXPECT_TRUE(stream.waits(0ms));
 }
 
+/// What had been read before the request was handed on comes first, and what belongs to the next
+/// request is left.
+TEST(DeadlineStream, BeginsWithWhatWasReadBefore) {
+  Line line;
+  DeadlineStream stream(line.ends[0], "abc");
+  line.say("def");
+  stream.begin(Clock::now() + 30s, 3);
+  char bytes[2];
+  EXPECT_TRUE(stream.waits(0ms));
+  EXPECT_EQ(stream.read(bytes, 2), 2);
+  EXPECT_EQ(stream.rest(), "c");
+  EXPECT_EQ(readAll(stream, 2), "cdef");
+  EXPECT_EQ(stream.rest(), "");
+}
+
+TEST(DeadlineStream, AnAnswerThatIsNotTakenOffEnds) {
+  Line line;
+  DeadlineStream stream(line.ends[0]);
+  stream.answerWithin(0ms, 30s);
+  EXPECT_FALSE(stream.is_writable());
+  EXPECT_EQ(stream.write("abc", 3), -1);
+  stream.answerWithin(std::chrono::milliseconds::max(), 30s);
+  EXPECT_EQ(stream.write("abc", 3), 3);
+  stream.answerWithin(30s, 10ms);
+  const std::string much(1 << 20, 'a');
+  std::size_t taken = 0;
+  for (ssize_t count; (count = stream.write(much.data(), much.size())) > 0;)
+    taken += static_cast<std::size_t>(count);
+  EXPECT_GT(taken, 0u);  // what the system holds, and then no more
+  EXPECT_EQ(stream.write("abc", 3), -1);
+}
+
 TEST(DeadlineStream, WritingToWhoLeftFailsAndKillsNobody) {
   Line line;
   DeadlineStream stream(line.ends[0]);

@@ -49,5 +49,56 @@ TEST(Framing, NothingPackedNothingInPartsNothingTwice) {
     EXPECT_EQ(statusOf("GET", {{once, "a"}, {once, "b"}}), 400) << once;
 }
 
+constexpr char kFirst[] = "POST /api/trainees HTTP/1.1\r\nHost: 127.0.0.1:1\r\n";
+
+int statusOfHead(const std::string& more) { return judgeHead(kFirst + more + "\r\n").status; }
+
+TEST(Head, AsBrowsersWriteIt) {
+  EXPECT_EQ(statusOfHead(""), 200);
+  for (const char* line :
+       {"Content-Length: 2", "X-A:b", "X-A:", "X-A: \t b \t", "sec-ch-ua: \"a\";v=\"1\"",
+        "Cookie: palpa=0123; a=b:c", "X-A: \xc3\xa9", "X_a.b!: c"})
+    EXPECT_EQ(statusOfHead(std::string(line) + "\r\n"), 200) << line;
+}
+
+/// What one program reads as a header and another does not: no request may hide behind it.
+TEST(Head, WhatCanBeReadInTwoWaysIsRefused) {
+  for (const char* line : {"Transfer-Encoding:\r\n chunked",
+                           "Transfer-Encoding:\r\n\tchunked",
+                           " X-A: b",
+                           "\tX-A: b",
+                           "X-A: b\r\n c",
+                           "Transfer-Encoding : chunked",
+                           "Content-Length\t: 2",
+                           "Content-Length 2",
+                           ": 2",
+                           " : 2",
+                           "nothing",
+                           "X A: b",
+                           "X-A\": b",
+                           "X(A): b",
+                           "X-A: b\rTransfer-Encoding: chunked",
+                           "X-A: b\nTransfer-Encoding: chunked",
+                           "X-A: b\r\r\n",
+                           "X-A: \x01",
+                           "X-A: \x7f",
+                           "X-\xc3\xa9: a"})
+    EXPECT_EQ(statusOfHead(std::string(line) + "\r\n"), 400) << line;
+  EXPECT_EQ(statusOfHead(std::string("X-A: a\0b\r\n", 10)), 400);
+  EXPECT_EQ(judgeHead("GET /\n HTTP/1.1\r\n\r\n").status, 400);
+}
+
+TEST(Head, ItsEndAndTheLengthItStates) {
+  EXPECT_EQ(endOfHead(""), std::string::npos);
+  EXPECT_EQ(endOfHead("GET / HTTP/1.1\r\n\r"), std::string::npos);
+  EXPECT_EQ(endOfHead("a\r\n\r\nb"), 5u);
+  EXPECT_EQ(bodyLengthIn(kFirst), 0u);
+  for (const char* line : {"Content-Length: 2", "content-length:2", "CONTENT-LENGTH: \t2"})
+    EXPECT_EQ(bodyLengthIn(std::string(kFirst) + line + "\r\n\r\n"), 2u) << line;
+  for (const char* line : {"Content-Length: 2\r\nContent-Length: 2", "Content-Length: x",
+                           "Content-Length:", "Content-Length: -2", "Content-Length: 2 "})
+    EXPECT_FALSE(bodyLengthIn(std::string(kFirst) + line + "\r\n\r\n")) << line;
+}
+
 }  // namespace
 }  // namespace palpa::console

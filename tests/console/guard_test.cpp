@@ -185,6 +185,31 @@ TEST(Guard, AFloodOfWritesIsStoppedWhereItComesFrom) {
   EXPECT_EQ(door.guard.judge(door.get()).status, 200) << "looking on goes on";
 }
 
+/// The emergency stop has no limit of writes before it, and all else that a write needs.
+TEST(Guard, NoFloodStandsBeforeTheEmergencyStop) {
+  Door door;
+  const std::string stop = "/api/sessions/20260101-120000-0a1b2c3d/stop";
+  for (int i = 0; i < 100; ++i) door.guard.judge(door.post());
+  ASSERT_EQ(door.guard.judge(door.post()).status, 429);
+  for (int i = 0; i < 200; ++i) EXPECT_EQ(door.guard.judge(door.post(stop)).status, 200);
+  EXPECT_EQ(door.guard.judge(door.post("/api/sessions/x/command")).status, 429);
+  EXPECT_EQ(door.guard.judge(door.post("/api/trainees/stop")).status, 429);
+  GuardedRequest asked = door.post(stop);
+  asked.origin = "http://evil.example";
+  EXPECT_EQ(door.guard.judge(asked).status, 403);
+  asked = door.post(stop);
+  asked.page_key = "";
+  EXPECT_EQ(door.guard.judge(asked).status, 403);
+  asked = door.post(stop);
+  asked.host = "evil.example";
+  EXPECT_EQ(door.guard.judge(asked).status, 421);
+  asked = door.post(stop);
+  EXPECT_EQ(door.guard.judge(asked).status, 200);
+  EXPECT_EQ(door.guard.judge(asked).status, 409) << "a number counts once";
+  Door locked(kToken);
+  EXPECT_EQ(locked.guard.judge(locked.post(stop)).status, 401);
+}
+
 /// 20,000 numbers are kept, whoever they came from: what is remembered does not grow for ever.
 TEST(Guard, NumbersAreKeptUpToABound) {
   Door door;

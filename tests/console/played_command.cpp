@@ -44,19 +44,25 @@ int tellFacts() {
 /// A session of one trial: an entry each 10 ms, until told to leave.
 int playSession(const std::vector<std::string>& arguments) {
   trial::Channels channels;
+  runtime::StopSwitch stop;
   live::LiveSession session(after(arguments, "--live"),
                             {"uuid", "paracentesis", after(arguments, "--trainee"), true, false, 1},
-                            channels);
+                            channels, stop);
+  std::uint32_t presses = 0;
+  const auto hear = [&](trial::UserCommand command) {
+    session.log().add("{\"kind\":\"event\",\"heard\":" + std::to_string(static_cast<int>(command)) +
+                      "}");
+  };
   const auto until = runtime::ServingClock::now() + kLongestPlay;
   for (int number = 1; runtime::ServingClock::now() < until; ++number) {
     session.log().add("{\"kind\":\"event\",\"number\":" + std::to_string(number) + "}");
     if (session.wantsPicture(number * 100'000'000ll))
       session.picture({32, 32, 3, std::vector<std::uint8_t>(32 * 32 * 3, 128)},
                       number * 100'000'000ll);
+    for (; presses < stop.presses(); ++presses) hear(trial::UserCommand::emergency_stop);
     trial::UserRequest request;
     while (channels.console_to_task.pop(&request)) {
-      session.log().add("{\"kind\":\"event\",\"heard\":" +
-                        std::to_string(static_cast<int>(request.command)) + "}");
+      hear(request.command);
       if (request.command != trial::UserCommand::quit) continue;
       std::ofstream(fs::path(after(arguments, "--out")) / "report.html") << "<p>done</p>";
       return 0;

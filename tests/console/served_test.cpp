@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "apps/console/http.h"
 #include "apps/console/web_server.h"
 #include "apps/runtime/clock.h"
+#include "apps/trial/trial_status.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/short_folder.h"
@@ -159,6 +161,52 @@ TEST(Served, ASessionIsBegunLookedAtSteeredAndOver) {
   EXPECT_EQ(rest.back().second["state"], "finished");
   EXPECT_EQ(console.post("/api/sessions/" + id + "/command", {{"command", "pause"}}), 409);
   EXPECT_EQ(console.get("/api/sessions")[0]["state"], "finished");
+}
+
+/// By its own path and as a command: before anything that waits, and confirmed by the session.
+TEST(Served, TheEmergencyStopIsConfirmed) {
+  Desk desk("stopped");
+  Served& console = *desk.console;
+  const std::string id = desk.begin(), path = "/api/sessions/" + id;
+  ASSERT_TRUE(desk.isState(id, "running"));
+  for (int i = 0; i < 80; ++i) console.post(path + "/command", {{"command", "pause"}});
+  EXPECT_EQ(console.post(path + "/command", {{"command", "pause"}}), 429);
+  json told;
+  EXPECT_EQ(console.post(path + "/stop", json::object(), &told), 202) << told.dump();
+  EXPECT_EQ(told.value("confirmed", false), true) << told.dump();
+  const json heard{{"kind", "event"},
+                   {"heard", static_cast<int>(trial::UserCommand::emergency_stop)}};
+  std::string last;
+  EXPECT_TRUE(inTime([&] {
+    const auto some = console.events(id, last, 20);
+    if (!some.empty()) last = std::to_string(some.back().first);
+    return std::any_of(some.begin(), some.end(),
+                       [&](const auto& entry) { return entry.second == heard; });
+  }));
+  EXPECT_EQ(console.post("/api/sessions/none/stop", json::object()), 409);
+  ASSERT_TRUE(inTime([&] {
+    return console.post(path + "/command", {{"command", "leave"}}) == 202;
+  }));
+  EXPECT_TRUE(desk.isState(id, "finished"));
+  EXPECT_EQ(console.post(path + "/stop", json::object()), 409);
+}
+
+/// As on a full disk: what goes wrong once it serves is thrown to whoever can say it.
+TEST(Served, AnErrorOnTheWayEndsItWithWords) {
+  const test::ScratchFolder folder("full");
+  const test::ShortFolder sockets;
+  ConsoleSettings settings;
+  settings.place.home = folder / "home";
+  settings.place.records = (folder / "records.sqlite").string();
+  settings.place.sockets = sockets.path();
+  EXPECT_THROW(serveConsole(settings,
+                            [](const std::string&) {
+                              throw Error("has no room left", "the disk", "Make room");
+                            }),
+               Error);
+  std::filesystem::create_directories(folder / "home" / "address");  // cannot be written
+  EXPECT_THROW(serveConsole(settings, [](const std::string&) { ADD_FAILURE() << "it served"; }),
+               Error);
 }
 
 /// A Falcon before a webcam.

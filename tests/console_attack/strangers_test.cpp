@@ -119,6 +119,14 @@ TEST_F(Strangers, NoRequestHidesInAnother) {
                 "0\r\n\r\n" + hidden),
       requestOf("POST", "/api/trainees", with({{"Transfer-Encoding", "chunked"}}),
                 "0\r\n\r\n" + hidden),
+      requestOf("POST", "/api/trainees",
+                with({{"Transfer-Encoding", "\r\n chunked"}, {"Content-Length", length}}), hidden),
+      requestOf("POST", "/api/trainees",
+                with({{"Transfer-Encoding ", "chunked"}, {"Content-Length", length}}), hidden),
+      requestOf("POST", "/api/trainees",
+                with({{"Content-Length ", "0"}, {"Content-Length", length}}), hidden),
+      requestOf("GET", "/api/me", with({{"X-A", "b\nContent-Length: " + length}}), hidden),
+      requestOf("GET", "/api/me", with({{"X-A", "b\r\n c"}}), hidden),
       requestOf("OPTIONS", "/api/trainees", with({{"Content-Length", length}}), hidden),
       "garbage\r\n\r\n" + hidden,
       "GET  /api/me HTTP/1.1\r\n\r\n" + hidden,
@@ -136,7 +144,32 @@ TEST_F(Strangers, NoRequestHidesInAnother) {
     EXPECT_EQ(all.find("page_key"), std::string::npos) << bytes.substr(0, 200);
     expectSafe(answerIn(all));
   }
+  EXPECT_TRUE(isNoted("400 a header is folded over two lines"));
+  EXPECT_TRUE(isNoted("400 a header has a blank before its colon"));
   EXPECT_TRUE(goesOn());
+}
+
+/// Over one connection, one after the other, or all sent at once.
+TEST_F(Strangers, OneConnectionMayAskOften) {
+  const std::string ask =
+      requestOf("GET", "/api/me", changed(console().readHeaders(), "Connection", "-"));
+  Wire wire(console().port());
+  wire.send(ask + ask + ask);
+  std::string all;
+  const auto answers = [&all] {
+    int count = 0;
+    for (std::size_t at = 0; (at = all.find("HTTP/1.1 200", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  };
+  for (int wanted = 3; wanted <= 6; ++wanted) {
+    EXPECT_TRUE(inTime([&] {
+      all += wire.readSome(std::chrono::milliseconds(200));
+      return answers() >= wanted || wire.closed();
+    }));
+    EXPECT_EQ(answers(), wanted);
+    if (wanted < 6) wire.send(ask);
+  }
 }
 
 }  // namespace

@@ -19,13 +19,14 @@ TEST(Controller, MovesTheToolToAMillimetre) {
   Worn worn("eyes=64x64,64x64;rate=300");
   runtime::ChannelDevice device(haptics::DeviceCapabilities{}, runtime::TimeMode::real);
   trial::Channels channels;
+  runtime::StopSwitch stop;
   session::MouseHandSetup setup;
   setup.X_DA = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
                         {0.1, 0.2, -0.3});
   setup.X_ET = makePose(Eigen::AngleAxisd(-0.4, Vec3::UnitY()).toRotationMatrix(), {0.01, 0, 0.12});
   setup.anatomy = {Vec3::Zero(),  -Vec3::UnitY(), Vec3(0, 0.03, 0), 0.03,
                    Vec3::UnitX(), Vec3::UnitY(),  Vec3::UnitZ()};
-  session::MouseHand hand(setup, device, channels);
+  session::MouseHand hand(setup, device, channels, stop);
   std::int64_t now = 0;
   const auto tip = [&] {
     const haptics::DeviceReading reading = device.read(now);
@@ -80,7 +81,7 @@ TEST(Controller, EveryKnownKindIsBound) {
 }
 
 TEST(Controller, LeftHandedPeopleHoldItInTheLeft) {
-  HeadsetViewSetup setup;
+  HeadsetViewSetup setup = unhurried();
   setup.left_handed = true;
   Worn worn("eyes=64x64,64x64", 0.03, setup);
   bool tracked = false;
@@ -144,11 +145,12 @@ TEST(Controller, TheStartButtonStarts) {
 TEST(Controller, TheMouseTakesOverWhereItWas) {
   runtime::ChannelDevice device(haptics::DeviceCapabilities{}, runtime::TimeMode::real);
   trial::Channels channels;
+  runtime::StopSwitch stop;
   session::MouseHandSetup setup;
   setup.X_DA = setup.X_ET = Pose::Identity();
   setup.anatomy = {Vec3::Zero(),  -Vec3::UnitY(), Vec3(0, 0.03, 0), 0.03,
                    Vec3::UnitX(), Vec3::UnitY(),  Vec3::UnitZ()};
-  session::MouseHand hand(setup, device, channels);
+  session::MouseHand hand(setup, device, channels, stop);
   std::int64_t now = runtime::kSecond;
   const auto settle = [&] {
     for (int i = 0; i < 500; ++i) hand.step(now += runtime::kMillisecond);

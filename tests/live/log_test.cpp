@@ -65,12 +65,28 @@ TEST(LiveLog, WhoeverReadsOnGetsEachEntryOnceWhileOthersWrite) {
   EXPECT_EQ(log.since(kEach - 3, std::numeric_limits<std::size_t>::max()).size(), 3u);
 }
 
-TEST(LiveLog, CurvesEndAtTheirBound_WhatHappensIsToldBeyondIt) {
+TEST(LiveLog, WhatPassesEndsAtItsBound_WhatHappensIsToldBeyondIt) {
   LiveLog log;
-  for (std::size_t i = 0; i < LiveLog::kMostCurves + 10; ++i) log.addCurve("");
-  EXPECT_EQ(log.size(), LiveLog::kMostCurves);
+  for (std::size_t i = 0; i < LiveLog::kMostPassing + 10; ++i) log.addPassing("", 1);
+  EXPECT_EQ(log.size(), LiveLog::kMostPassing);
   log.add("{\"kind\":\"event\"}");
-  EXPECT_EQ(log.size(), LiveLog::kMostCurves + 1);
+  EXPECT_EQ(log.size(), LiveLog::kMostPassing + 1);
+}
+
+/// A session of hours keeps what passed in two trials, and every entry its number.
+TEST(LiveLog, ForgetsWhatPassedInOlderTrials_NothingElse) {
+  LiveLog log;
+  for (std::uint32_t trial = 1; trial <= 4; ++trial) {
+    log.add("begins " + std::to_string(trial));
+    log.addPassing("curve a " + std::to_string(trial), trial);
+    log.addPassing("curve b " + std::to_string(trial), trial);
+  }
+  log.addPassing("late c 3", 3);  // from another thread
+  const std::string gone = R"({"kind":"curve"})";
+  EXPECT_EQ(log.since(0, 100),
+            (std::vector<std::string>{"begins 1", gone, gone, "begins 2", gone, gone, "begins 3",
+                                      "curve a 3", "curve b 3", "begins 4", "curve a 4",
+                                      "curve b 4", "late c 3"}));
 }
 
 /// Notes what it is given; refuses when asked to.

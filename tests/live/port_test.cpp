@@ -264,16 +264,16 @@ TEST(Port, AFloodHoldsNobodyUp) {
 
 TEST(LiveSession, WhatIsNoRequestIsToldAThousandTimesAndNoMore) {
   trial::Channels channels;
+  runtime::StopSwitch stop;
   const std::string path = newSocket();
-  LiveSession session(path, {"u", "paracentesis", "T017", true, false, 1}, channels);
+  LiveSession session(path, {"u", "paracentesis", "T017", true, false, 1}, channels, stop);
   Peer peer(path);
   std::string many;
   for (int i = 0; i < 1500; ++i) many += encoded(FrameKind::command, "{\"command\":\"<script>\"}");
   many += encoded(FrameKind::command, "{\"command\":\"stop\"}");
   ASSERT_TRUE(peer.sendAll(many));
-  trial::UserRequest request;
-  ASSERT_TRUE(eventually([&] { return channels.console_to_task.pop(&request); }));
-  EXPECT_EQ(request.command, trial::UserCommand::emergency_stop);
+  ASSERT_TRUE(eventually([&] { return stop.noForce(); }));
+  EXPECT_EQ(stop.presses(), 1u);
   EXPECT_EQ(session.log().size(), 1001u);  // and hello
   ASSERT_TRUE(peer.getsEntries(1001));
   EXPECT_EQ(json::parse(peer.entries[0])["kind"], "hello");
@@ -284,20 +284,24 @@ TEST(LiveSession, WhatIsNoRequestIsToldAThousandTimesAndNoMore) {
 /// nothing waits, nothing breaks.
 TEST(LiveSession, MoreRequestsThanTheTaskTakesHurtNothing) {
   trial::Channels channels;
+  runtime::StopSwitch stop;
   const std::string path = newSocket();
-  LiveSession session(path, {"u", "paracentesis", "", true, false, 1}, channels);
+  LiveSession session(path, {"u", "paracentesis", "", true, false, 1}, channels, stop);
   Peer peer(path);
   std::string many;
   for (int i = 0; i < 500; ++i) many += encoded(FrameKind::command, "{\"command\":\"pause\"}");
   ASSERT_TRUE(peer.sendAll(many));
   ASSERT_TRUE(eventually([&] { return channels.console_to_task.overflows() == 500 - 64; }));
+  ASSERT_TRUE(peer.sendAll(encoded(FrameKind::command, "{\"command\":\"stop\"}")));
+  EXPECT_TRUE(eventually([&] { return stop.noForce(); })) << "the stop waits behind them";
   session.log().add("{}");
   EXPECT_TRUE(peer.getsEntries(2));
 }
 
 TEST(LiveSession, WordsAreToldWhenTheyChangeAtMostFiveTimesASecond) {
   trial::Channels channels;
-  LiveSession session(newSocket(), {"u", "t", "", true, false, 1}, channels);
+  runtime::StopSwitch stop;
+  LiveSession session(newSocket(), {"u", "t", "", true, false, 1}, channels, stop);
   trial::TrialStatus status;
   scene::Hud hud;
   for (int frame = 0; frame < 600; ++frame) {

@@ -86,13 +86,23 @@ TEST(Wire, OneByteTooLongIsRefusedAtItsHead) {
   EXPECT_THROW(decoder.next(), Error);
 }
 
+TEST(Wire, AStopSaysNothingMore) {
+  FrameDecoder decoder;
+  const std::string bytes = encoded(FrameKind::stop, "") + headOf('S', 1);
+  decoder.feed(bytes.data(), bytes.size());
+  const auto stop = decoder.next();
+  ASSERT_TRUE(stop);
+  EXPECT_EQ(stop->kind, FrameKind::stop);
+  EXPECT_THROW(decoder.next(), Error);
+}
+
 TEST(Wire, EveryOtherKindIsRefused) {
   for (int kind = 0; kind < 256; ++kind) {
     const char c = static_cast<char>(kind);
     FrameDecoder decoder;
     const std::string bytes = headOf(c, 0);
     decoder.feed(bytes.data(), bytes.size());
-    if (std::string("LPCWK").find(c) != std::string::npos)
+    if (std::string("LPCWKS").find(c) != std::string::npos)
       EXPECT_TRUE(decoder.next()) << kind;
     else
       EXPECT_THROW(decoder.next(), Error) << kind;

@@ -37,6 +37,7 @@ XRAPI_ATTR XrResult XRAPI_CALL DestroyInstance(XrInstance instance) {
   w.ledger.called("xrDestroyInstance");
   w.ledger.closed(instance);
   w.ledger.write(w.plan.report);
+  dismissService();
   return XR_SUCCESS;
 }
 

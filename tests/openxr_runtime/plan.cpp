@@ -50,6 +50,10 @@ Plan planFromEnvironment() {
       plan.stands = std::atoi(value.c_str());
     else if (name == "controller")
       plan.controller = value;
+    else if (name == "hang")
+      plan.hang = value;
+    else if (name == "service")
+      plan.service = value;
     else if (name == "fault") {
       plan.fault = value.substr(0, value.find('@'));
       plan.fault_frame = value.find('@') == std::string::npos

@@ -22,6 +22,8 @@ struct Plan {
   int stands = 400;       ///< the frame from which on the hand stands still
   std::string fault;      ///< fault=session_lost@120: what happens, and in which frame
   int fault_frame = 0;
+  std::string hang;      ///< hang=FILE: functions that do not return while the file names them
+  std::string service;   ///< service=FILE: every call asks a process, whose number stands there
   std::string report;    ///< file for what the program did
   std::string pictures;  ///< folder for what it showed last: eye0.pam, eye1.pam
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/openxr_runtime/gate.h"
 #include "tests/openxr_runtime/ledger.h"
 #include "tests/openxr_runtime/plan.h"
 
@@ -68,7 +69,9 @@ void addInstanceFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 void addSessionFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 void addInputFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 
-#define PALPA_XR(name) all->emplace("xr" #name, reinterpret_cast<PFN_xrVoidFunction>(&(name)))
+#define PALPA_XR(function)                   \
+  Gated<&(function)>::name = "xr" #function; \
+  all->emplace("xr" #function, reinterpret_cast<PFN_xrVoidFunction>(&Gated<&(function)>::call))
 
 /// Lists as OpenXR hands them over: asked for their length first.
 template <class T>

@@ -1,6 +1,8 @@
 #include "apps/os/socket.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <utility>
@@ -36,7 +38,6 @@ TEST(Socket, NothingThereIsNotTheSameAsNobodyThere) {
   EXPECT_TRUE(ready(pair.ends[0], Wait::to_read, 0));
   EXPECT_FALSE(receiveSome(pair.ends[0], bytes, sizeof bytes));
   EXPECT_FALSE(sendSome(pair.ends[0], "abc", 3)) << "and no signal ends the program";
-  EXPECT_FALSE(sendWaiting(pair.ends[0], "abc", 3));
 }
 
 TEST(Socket, WhoTakesNothingKeepsNobodyWaiting) {
@@ -90,6 +91,37 @@ TEST(Socket, AddressesOfBothEnds) {
   const Pair local;
   EXPECT_EQ(peerOf(local.ends[0])->ip, "");
   EXPECT_FALSE(peerOf(-1));
+}
+
+TEST(Socket, AnAcceptedConnectionSendsAtOnceAndMayBeShared) {
+  TcpListener listener("127.0.0.1", 0);
+  TcpSocket caller = TcpSocket::connecting("127.0.0.1", listener.port());
+  ASSERT_EQ(caller.connected(30'000), TcpSocket::Progress::done);
+  TcpSocket here;
+  for (int tries = 0; tries < 3000 && !here.open(); ++tries) {
+    ready(caller.descriptor(), Wait::to_read, 10);
+    here = listener.accept();
+  }
+  ASSERT_TRUE(here.open());
+  int on = 0;
+  socklen_t size = sizeof on;
+  ::getsockopt(here.descriptor(), IPPROTO_TCP, TCP_NODELAY, &on, &size);
+  EXPECT_NE(on, 0);
+  const int shared = sharedSocket(here.descriptor());
+  ASSERT_GE(shared, 0);
+  EXPECT_EQ(peerOf(shared)->port, peerOf(here.descriptor())->port) << "it is the same connection";
+  closeSocket(shared);
+  EXPECT_EQ(sendSome(here.descriptor(), "x", 1), 1u) << "and goes on without the second descriptor";
+}
+
+TEST(Socket, AWakeUpIsReadyUntilItIsTaken) {
+  WakeUp wake;
+  EXPECT_FALSE(ready(wake.descriptor(), Wait::to_read, 0));
+  for (int i = 0; i < 3; ++i) wake.wake();
+  EXPECT_TRUE(ready(wake.descriptor(), Wait::to_read, 0));
+  wake.taken();
+  EXPECT_FALSE(ready(wake.descriptor(), Wait::to_read, 0));
+  wake.taken();  // never waits
 }
 
 TEST(Socket, OnlyFiguresAreLoopback) {

@@ -7,7 +7,7 @@
 namespace palpa::runtime {
 namespace {
 
-constexpr int kKinds = static_cast<int>(EventKind::answer) + 1;
+constexpr int kKinds = static_cast<int>(EventKind::computer) + 1;
 
 TEST(EventKind, AnEventIsOfTheKindThatItIsRecordedAs) {
   for (int recorded = 0; recorded < kKinds; ++recorded) {
@@ -23,6 +23,7 @@ TEST(EventKind, NamesAreThoseOfRecords) {
   EXPECT_EQ(nameOf(EventKind::emergency_stop), "emergency_stop");
   EXPECT_EQ(nameOf(EventKind::let_go), "let_go");
   EXPECT_EQ(nameOf(EventKind::answer), "answer");
+  EXPECT_EQ(nameOf(EventKind::computer), "computer");
 }
 
 TEST(EventKind, HowATrialEndedIsNone) {

@@ -81,6 +81,18 @@ struct HeldThing {
   }
 };
 
+TEST(PairLoop, TheTickAfterAnEmergencyStopHasNoForceForEitherHand) {
+  HeldThing held(1.5f);
+  held.squeeze(0.004);
+  ASSERT_GT(held.commanded(0).norm(), 0.05);
+  ASSERT_GT(held.commanded(1).norm(), 0.05);
+  held.bus.stop.press();
+  held.step(0.004);
+  EXPECT_EQ(held.commanded(0), Vec3(0, 0, 0));
+  EXPECT_EQ(held.commanded(1), Vec3(0, 0, 0));
+  EXPECT_EQ(held.allocations, 0);
+}
+
 TEST(PairLoop, EveryTickIsRecordedOfBothInTurnAndNothingIsAllocated) {
   HeldThing held(1.5f);
   held.squeeze(0.004);

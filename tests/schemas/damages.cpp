@@ -1,7 +1,9 @@
 #include "damages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace palpa::schemas {
 namespace {
@@ -96,6 +98,55 @@ class Damager {
 };
 
 }  // namespace
+
+namespace {
+
+/// About its middle; empty where no letters differ there.
+std::string swapped(std::string word) {
+  for (std::size_t i = std::max<std::size_t>(1, word.size() / 2); i < word.size(); ++i)
+    if (word[i] != word[i - 1]) {
+      std::swap(word[i], word[i - 1]);
+      return word;
+    }
+  return "";
+}
+
+std::vector<std::string> misspellingsOf(const std::string& word) {
+  const std::size_t middle = word.size() / 2;
+  std::string less = word, more = word;
+  less.erase(middle, 1);
+  more.insert(middle, 1, word[middle]);
+  std::vector<std::string> all{swapped(word), less, more};
+  std::erase(all, "");
+  return all;
+}
+
+void collectKeys(const json& part, const Pointer& at, std::vector<Pointer>* keys) {
+  if (part.is_object())
+    for (const auto& [key, inner] : part.items()) {
+      keys->push_back(at / key);
+      collectKeys(inner, at / key, keys);
+    }
+  if (part.is_array())
+    for (std::size_t i = 0; i < part.size(); ++i) collectKeys(part[i], at / i, keys);
+}
+
+}  // namespace
+
+void eachMisspelling(const json& document,
+                     const std::function<void(const Mistyped& key, const json& document)>& judge) {
+  std::vector<Pointer> keys;
+  collectKeys(document, Pointer(), &keys);
+  for (const Pointer& key : keys)
+    for (const std::string& wrong : misspellingsOf(key.back())) {
+      json changed = document;
+      json& object = changed.at(key.parent_pointer());
+      if (object.contains(wrong)) continue;
+      object[wrong] = object.at(key.back());
+      object.erase(key.back());
+      judge({key.to_string(), key.back(), wrong}, changed);
+    }
+}
 
 Limits limitsIn(const json& schema) {
   Limits limits;

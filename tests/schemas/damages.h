@@ -25,4 +25,15 @@ using Judge = std::function<void(const std::string& damage, const nlohmann::json
 /// entries and its last stand for all.
 void eachDamage(const nlohmann::json& document, const Limits& limits, const Judge& judge);
 
+/// A key as it may be mistyped.
+struct Mistyped {
+  std::string place;  ///< of the key: "/end/time_limit_s"
+  std::string right, wrong;
+};
+
+/// Each key in turn with two letters swapped, with one left out, and with one doubled.
+void eachMisspelling(
+    const nlohmann::json& document,
+    const std::function<void(const Mistyped& key, const nlohmann::json& document)>& judge);
+
 }  // namespace palpa::schemas

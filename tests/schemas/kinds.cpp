@@ -200,6 +200,7 @@ std::vector<Kind> materialKinds() {
        .stricter = {"/covariance.*", "/data/(samples|used).*"},
        .forgiving = {"/covariance/coordinates as (null|\\{\\})"},
        .elsewhere = {"/sha256.*"},  // renewed after each change
+       .free = {"/parameters/.*"},  // each routine has its own
        .seal = sealCalibration},
       {.name = "phantoms",
        .samples = {{"phantoms/mockups.json", json::object()}},
@@ -243,9 +244,8 @@ std::vector<Kind> patientKinds() {
        .read = [](const fs::path& file) { ar::readTagGrid(file); },
        // Enough white round a tag, no tag beyond the family.
        .stricter = {"/(columns|rows|tag_size_m|spacing_m|first_id) .*"},
-       // OpenCV's parser takes true for 1; whether it knows null depends on its version.
-       .forgiving = {"/(version|columns|rows|spacing_m|first_id) as true"},
-       .elsewhere = {"/(name|source) as null"}},
+       .forgiving = {},
+       .elsewhere = {}},
       {.name = "camera",
        .samples = {{"own/camera.json",
                     {{"type", "camera_model"},

@@ -27,7 +27,8 @@ struct Kind {
   Exceptions stricter;
   /// The reader takes what it was not meant to; the schema says what is meant.
   Exceptions forgiving;
-  Exceptions elsewhere;                            ///< read by none of the readers asked here
+  Exceptions elsewhere;  ///< read by none of the readers asked here
+  Exceptions free = {};  ///< places of keys that a file may name as it likes
   std::function<void(nlohmann::json*)> seal = {};  ///< renews a checksum after a change
 };
 

@@ -9,6 +9,7 @@
 
 #include "anatomy/base/quantile.h"
 #include "apps/assess/statistics/tests_of_means.h"
+#include "apps/evidence/recorded_session.h"
 #include "apps/training/trial_words.h"
 #include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
@@ -33,7 +34,11 @@ double ribPoints(const assess::TrialAssessment& a) {
 
 /// A trial again, as published.
 assess::TrialAssessment asPublished(const task_needle::CompletedTrial& trial,
-                                    const NeedleWorld& world) {
+                                    const std::filesystem::path& folder, const NeedleWorld& world) {
+  evidence::NeedleSamples samples;
+  evidence::eachNeedleTrial(
+      record::SessionReader(folder / "session.palpa"), world.X_DA,
+      [&](const record::RecordedTrial&, const evidence::NeedleSamples& all) { samples = all; });
   static const task_needle::TaskSettings task = task_needle::readTask(
       std::filesystem::path(PALPA_SOURCE_DIR "/assets/tasks/paracentesis_published.json"));
   const calibration::TaughtPath path =
@@ -41,11 +46,12 @@ assess::TrialAssessment asPublished(const task_needle::CompletedTrial& trial,
           .onBody(assess::teachingLineOf(world.patient, world.query));
   const assess::TrialAssessment& a = trial.assessment;
   return assess::assessTrial({a.trial, a.role, a.simulated, a.force_feedback, a.seed, a.outcome},
-                             trial.samples, world.patient, world.query, path, task.rules);
+                             samples, world.patient, world.query, path, task.rules);
 }
 
-void add(const task_needle::CompletedTrial& trial, const NeedleWorld& world, Cohort* cohort) {
-  const assess::TrialAssessment again = asPublished(trial, world);
+void add(const task_needle::CompletedTrial& trial, const std::filesystem::path& folder,
+         const NeedleWorld& world, Cohort* cohort) {
+  const assess::TrialAssessment again = asPublished(trial, folder, world);
   cohort->totals.push_back(trial.assessment.total);
   cohort->rib.push_back(ribPoints(trial.assessment));
   cohort->published.push_back(again.total);
@@ -80,9 +86,9 @@ Cohort cohort(OperatorKind who, bool force_feedback, int seeds, const std::strin
   options.force_feedback = force_feedback;
   Quick<NeedleWorld> world(options);
   std::string totals = force_feedback ? "totals:" : "without force feedback:";
-  trySeeds(options, world, seeds, [&](const task_needle::CompletedTrial& trial) {
+  trySeeds(options, world, seeds, [&](const auto& trial, const auto& folder) {
     EXPECT_TRUE(trial.assessment.simulated);
-    add(trial, world, &result);
+    add(trial, folder, world, &result);
     totals += " " + std::to_string(std::lround(trial.assessment.total));
   });
   std::printf("%s\n", totals.c_str());

@@ -32,7 +32,7 @@ Tried tries(SessionOptions options, OperatorKind who, int seeds, NeedleWorld& wo
   options.who = who;
   options.knows_patient = who == OperatorKind::expert;
   Tried tried;
-  trySeeds(options, world, seeds, [&](const task_needle::CompletedTrial& done) {
+  trySeeds(options, world, seeds, [&](const task_needle::CompletedTrial& done, const auto&) {
     const assess::TrialAssessment& trial = done.assessment;
     tried.successes += trial.values.success;
     tried.totals.push_back(trial.total);

@@ -31,12 +31,13 @@ inline std::filesystem::path freshPlace(const std::string& name) {
   return test::freshFolder("session", name);
 }
 
-/// A trial of each seed from 1 on is given to `each`.
+/// A trial of each seed from 1 on is given to `each`, with the folder of its session.
 template <typename Each>
 void trySeeds(SessionOptions options, NeedleWorld& world, int seeds, const Each& each) {
   for (int i = 0; i < seeds; ++i) {
     options.seed = 1 + static_cast<std::uint64_t>(i);
-    each(runNeedleSession(options, world, freshPlace("seeds")).trials.at(0));
+    const std::filesystem::path folder = freshPlace("seeds");
+    each(runNeedleSession(options, world, folder).trials.at(0), folder);
   }
 }
 

@@ -190,6 +190,25 @@ TEST(Protocol, ATaskOfAnUnknownEngineIsRefused) {
   EXPECT_NE(complaintOf([&] { readProtocol(file); }).find("\"drill\""), std::string::npos);
 }
 
+TEST(Protocol, TheLongestTimeIsToldAndBounded) {
+  const auto slow = [](const json& protocol) {
+    const auto file = written(protocol);
+    std::ofstream(file.parent_path() / "task.json")
+        << R"({"version": 1, "engine": "needle", "end": {"time_limit_s": 3600}})";
+    return file;
+  };
+  const Protocol p = readProtocol(slow(smallProtocol()));
+  EXPECT_EQ(longestTime_s(p.block(2)), 5 * 3600 + 3 * 100);  // rests after 2 and 4, and at the end
+  EXPECT_TRUE(longestTimeInWords(p).starts_with("at most ")) << longestTimeInWords(p);
+  EXPECT_TRUE(longestTimeInWords(p).ends_with(" min")) << longestTimeInWords(p);
+  json endless = smallProtocol();
+  block(endless, 1)["trials"] = 1000;
+  const auto file = slow(endless);
+  const std::string said = complaintOf([&] { readProtocol(file); });
+  EXPECT_NE(said.find("may take up to 10"), std::string::npos) << said;
+  EXPECT_NE(said.find("at most 200 h"), std::string::npos) << said;
+}
+
 TEST(Protocol, FieldsOfAWrongKindAreNamedNotBelieved) {
   const json good = smallProtocol();
   const json flat = good.flatten();

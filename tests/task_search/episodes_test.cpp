@@ -122,6 +122,7 @@ void refuses(const std::string& pointer, const nlohmann::json& value, const std:
 TEST(SearchFile, WhatCannotBeMeantIsNamed) {
   refuses("/engine", "needle", "engine");
   refuses("/stimulus/side_U/value", 1e9, "side_U");
+  refuses("/stimulus/distractor/jitter_U", 100, "too many bumps");
   refuses("/rises/map_px/value", 1001, "map_px");
   refuses("/subtasks/0/on/0/cue", "smell", "smell");
   refuses("/subtasks/0/on", nlohmann::json::array(), "on");

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "apps/assess/metrics/metric_table.h"
@@ -17,12 +18,9 @@ namespace {
 
 constexpr const char* kRemedy = "The shipped forms in assets/checklists show how it is written";
 
-JsonFile formIn(const std::string& text, const std::string& where) {
-  nlohmann::json json = parsedOrDiscarded(text);
-  if (!json.is_object())
-    throw UsageError("is not JSON", where, "Restore it from the program's assets");
-  JsonFile file(std::move(json), where, kRemedy);
-  file.needVersion(1);
+JsonFile formIn(const std::string& text, const std::string& where, const char* kind) {
+  const JsonFile file = JsonFile::ofText(text, where, kRemedy);
+  needKind(file, kind, 1);
   return file;
 }
 
@@ -91,7 +89,7 @@ Level levelIn(const JsonFile& file, const std::string& level) {
 }  // namespace
 
 Checklist parseChecklist(const std::string& text, const std::string& where) {
-  const JsonFile file = formIn(text, where);
+  const JsonFile file = formIn(text, where, "checklist");
   Checklist list;
   list.id = textIn(file, "id");
   list.title = textIn(file, "title");
@@ -110,7 +108,7 @@ Checklist parseChecklist(const std::string& text, const std::string& where) {
 }
 
 GlobalRating parseGlobalRating(const std::string& text, const std::string& where) {
-  const JsonFile file = formIn(text, where);
+  const JsonFile file = formIn(text, where, "global_rating");
   GlobalRating rating;
   rating.id = textIn(file, "id");
   rating.title = textIn(file, "title");

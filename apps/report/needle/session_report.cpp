@@ -56,8 +56,16 @@ void writeFooter(Html& html, const SessionReport& report) {
   writeMadeBy(html, {&report.station, &report.notes, &report.registration});
 }
 
-std::string page(const SessionReport& report) {
-  Html html;
+void writeTrials(Html& html, const SessionReport& report) {
+  eachPage(
+      report.trials, report.courses, [](const TrialPage& page) { return page.assessment.trial; },
+      [&](const TrialPage& page) {
+        writeTrialSection(html, page);
+        html.passOn();
+      });
+}
+
+void writePage(Html& html, const SessionReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
@@ -67,7 +75,7 @@ std::string page(const SessionReport& report) {
     writeHeader(html, report);
     {
       const auto main = html.in("main");
-      for (const TrialPage& trial : report.trials) writeTrialSection(html, trial);
+      writeTrials(html, report);
       writeOverview(html, report.trials);
       writeSubtaskSection(html, report.parts);
       writeFacts(html, "Where this task stands", report.taxonomy);
@@ -77,13 +85,16 @@ std::string page(const SessionReport& report) {
     }
     writeFooter(html, report);
   }
-  return html.str();
+  html.passOn();
 }
 
 }  // namespace
 
 void writeReport(const SessionReport& report, const std::filesystem::path& file) {
-  writeWhole(file, page(report));
+  WholeFile whole(file);
+  Html html(whole);
+  writePage(html, report);
+  whole.finish();
 }
 
 void writeTrialSection(Html& html, const TrialPage& page) {

@@ -22,7 +22,8 @@ struct BesideTrial {
 
 struct TrialPage {
   assess::TrialAssessment assessment;
-  std::vector<assess::TrialSample> samples;  ///< about 100 Hz is plenty for the plots
+  /// about 100 Hz is plenty for the plots; empty where the report has `courses`
+  std::vector<assess::TrialSample> samples;
   std::vector<Picture> pictures;
   std::optional<competence::Verdict> verdict = {};  ///< its checklist must outlive the page
   std::string certification = {};  ///< what so few trials cannot certify; beside a verdict
@@ -35,7 +36,8 @@ struct SessionReport {
   bool simulated = false;  ///< operator or bench are simulated: said on top and beside results
   std::string when;        ///< date and time, empty in virtual time
   std::vector<TrialPage> trials;
-  std::vector<Fact> station;  ///< device, camera, display, rates
+  Courses<assess::TrialSample> courses = {};  ///< empty: the pages hold their samples
+  std::vector<Fact> station;                  ///< device, camera, display, rates
   /// registration error and its source, simulated truth named as such
   std::vector<Fact> registration;
   std::vector<Fact> notes;     ///< lateness, lost tracking, safety trips
@@ -43,8 +45,8 @@ struct SessionReport {
   SubtaskSection parts;
 };
 
-/// Writes one self-contained HTML page (no network, no script needed to read it). Beside, then
-/// renamed.
+/// Writes one self-contained HTML page (no network, no script needed to read it), trial by trial:
+/// beside, then renamed.
 void writeReport(const SessionReport& report, const std::filesystem::path& file);
 
 /// trials.csv: header row, then one row a trial: USER_ID FF COL_LUNG COL_RIB COL_ART COL_VEIN

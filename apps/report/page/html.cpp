@@ -89,6 +89,12 @@ void Html::element(std::string_view tag, Attributes attributes, std::string_view
   close();
 }
 
+void Html::passOn() {
+  if (!file_) return;
+  file_->write(out_);
+  out_.clear();
+}
+
 void Html::empty(std::string_view tag, Attributes attributes) {
   head(tag, attributes);
   out_ += "/>\n";

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "anatomy/base/whole_file.h"
+
 namespace palpa::report {
 
 /// Text made safe for element content and quoted attributes: & < > " ' become entities, control
@@ -17,6 +19,9 @@ using Attributes = std::initializer_list<std::pair<std::string_view, std::string
 /// Builds HTML and SVG with every text escaped and every element closed.
 class Html {
  public:
+  Html() = default;
+  explicit Html(WholeFile& file) : file_(&file) {}
+
   /// Opens an element for the life of the returned scope.
   class Scope {
    public:
@@ -41,12 +46,16 @@ class Html {
   void append(const Html& other) { out_ += other.out_; }
 
   const std::string& str() const { return out_; }
+  /// Between any two elements: what is written so far goes into the page's file, so that a long
+  /// page is never in memory whole. Without a file nothing happens. Throws Error.
+  void passOn();
 
  private:
   void open(std::string_view tag, Attributes attributes);
   void close();
   void head(std::string_view tag, Attributes attributes);
 
+  WholeFile* file_ = nullptr;
   std::string out_;
   std::vector<std::string> open_;
 };

@@ -146,7 +146,10 @@ void writePictures(Html& html, const std::vector<Picture>& pictures) {
   if (pictures.empty()) return;
   html.element("h3", "Pictures");
   const auto grid = html.in("div", {{"class", "pictures"}});
-  for (const Picture& picture : pictures) writeOne(html, picture);
+  for (const Picture& picture : pictures) {
+    writeOne(html, picture);
+    html.passOn();
+  }
 }
 
 }  // namespace palpa::report

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -23,6 +24,29 @@ struct Picture {
   std::string caption;
   double t_s = -1;  ///< moment in the trial; < 0: none
 };
+
+/// Calls `draw` with what a trial's charts are drawn from, trial by trial in the order of their
+/// numbers: only one trial's samples are then in memory. Throws Error.
+template <class Sample>
+using Courses =
+    std::function<void(const std::function<void(int trial, const std::vector<Sample>&)>& draw)>;
+
+/// Calls `write` with every page, in order: with its samples from `courses`, where they are given.
+/// A trial that is not among them has none. `number` tells a page's trial.
+template <class Page, class Sample, class Number, class Write>
+void eachPage(const std::vector<Page>& pages, const Courses<Sample>& courses, const Number& number,
+              const Write& write) {
+  auto next = pages.begin();
+  if (courses)
+    courses([&](int trial, const std::vector<Sample>& samples) {
+      while (next != pages.end() && number(*next) < trial) write(*next++);
+      if (next == pages.end() || number(*next) != trial) return;
+      Page page = *next++;
+      page.samples = samples;
+      write(page);
+    });
+  while (next != pages.end()) write(*next++);
+}
 
 /// <head> with title ("Paracentesis · P07") and style sheet; `more_style` is CSS of a page's own.
 void writeHeadElement(Html& html, const std::string& title, const std::string& trainee,

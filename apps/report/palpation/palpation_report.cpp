@@ -58,8 +58,17 @@ void writePalpationFooter(Html& html, const PalpationReport& report) {
   writeMadeBy(html, {&report.station, &report.notes});
 }
 
-std::string palpationHtml(const PalpationReport& report) {
-  Html html;
+void writePalpations(Html& html, const PalpationReport& report) {
+  eachPage(
+      report.trials, report.courses,
+      [](const PalpationPage& page) { return page.assessment.facts.trial; },
+      [&](const PalpationPage& page) {
+        writePalpationSection(html, page);
+        html.passOn();
+      });
+}
+
+void writePalpationPage(Html& html, const PalpationReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
@@ -70,7 +79,7 @@ std::string palpationHtml(const PalpationReport& report) {
     {
       const auto main = html.in("main");
       writePalpationTotals(html, report.trials, report.standard);
-      for (const PalpationPage& page : report.trials) writePalpationSection(html, page);
+      writePalpations(html, report);
       writeSubtaskSection(html, report.parts);
       writeFacts(html, "Where this task stands", report.taxonomy);
       writeFacts(html, "Station", report.station);
@@ -78,13 +87,16 @@ std::string palpationHtml(const PalpationReport& report) {
     }
     writePalpationFooter(html, report);
   }
-  return html.str();
+  html.passOn();
 }
 
 }  // namespace
 
 void writePalpationReport(const PalpationReport& report, const std::filesystem::path& file) {
-  writeWhole(file, palpationHtml(report));
+  WholeFile whole(file);
+  Html html(whole);
+  writePalpationPage(html, report);
+  whole.finish();
 }
 
 namespace {

@@ -12,7 +12,8 @@ namespace palpa::report {
 
 struct PalpationPage {
   assess::PalpationAssessment assessment;
-  std::vector<assess::PalpationSample> samples;  ///< about 100 Hz
+  /// about 100 Hz; empty where the report has `courses`
+  std::vector<assess::PalpationSample> samples;
   assess::PalpationRules rules;
   std::vector<Picture> pictures;
 };
@@ -24,7 +25,8 @@ struct PalpationReport {
   bool simulated = false;  ///< operator or bench are simulated: said on top
   std::string force_note;  ///< "Scaled force: ..."; shown near the top; empty: none
   std::vector<PalpationPage> trials;
-  std::vector<Fact> taxonomy;  ///< "Where this task stands"
+  Courses<assess::PalpationSample> courses = {};  ///< empty: the pages hold their samples
+  std::vector<Fact> taxonomy;                     ///< "Where this task stands"
   std::vector<Fact> station, notes;
   assess::PalpationStandard standard;
   SubtaskSection parts;

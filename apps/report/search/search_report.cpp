@@ -65,8 +65,7 @@ void writeSearchMain(Html& html, const SearchReport& report) {
   writeFacts(html, "Notes", report.notes);
 }
 
-std::string searchHtml(const SearchReport& report) {
-  Html html;
+void writeSearchPage(Html& html, const SearchReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
@@ -82,13 +81,16 @@ std::string searchHtml(const SearchReport& report) {
     }
     writeMadeBy(html, {&report.station, &report.notes});
   }
-  return html.str();
+  html.passOn();
 }
 
 }  // namespace
 
 void writeSearchReport(const SearchReport& report, const std::filesystem::path& file) {
-  writeWhole(file, searchHtml(report));
+  WholeFile whole(file);
+  Html html(whole);
+  writeSearchPage(html, report);
+  whole.finish();
 }
 
 namespace {

@@ -103,8 +103,7 @@ void writeSqueezeHeader(Html& html, const SqueezeReport& report) {
   if (simulated) writeSimulatedBanner(html);
 }
 
-std::string squeezeHtml(const SqueezeReport& report) {
-  Html html;
+void writeSqueezePage(Html& html, const SqueezeReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
@@ -133,13 +132,16 @@ std::string squeezeHtml(const SqueezeReport& report) {
                  "Psychophysics, 1966; its interval: S. S. Wilks, Ann. Math. Stat. 9, 1938.");
     writeMadeBy(html, {&report.station, &report.notes});
   }
-  return html.str();
+  html.passOn();
 }
 
 }  // namespace
 
 void writeSqueezeReport(const SqueezeReport& report, const std::filesystem::path& file) {
-  writeWhole(file, squeezeHtml(report));
+  WholeFile whole(file);
+  Html html(whole);
+  writeSqueezePage(html, report);
+  whole.finish();
 }
 
 namespace {

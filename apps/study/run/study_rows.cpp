@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
@@ -101,6 +102,7 @@ std::vector<StudyRow> studyRowsOfFile(const std::string& csv) {
 
 ProtocolFacts protocolFacts(const std::string& file) {
   const JsonFile protocol{std::filesystem::path(file)};
+  refuseUnknownFields(protocol, "protocol");
   ProtocolFacts facts;
   facts.id = protocol.text("id");
   study_analysis::StudyDesign& design = facts.design;

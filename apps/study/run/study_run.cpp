@@ -200,7 +200,8 @@ void reportStudy(const StudyOptions& o) {
   const study::Protocol protocol = study::readProtocol(o.protocol);
   record::RecordStore store(o.url);
   record::StudyStore studies(store);
-  std::printf("%s (%s)\n", protocol.title.c_str(), protocol.id.c_str());
+  std::printf("%s (%s)\nTrials and rests of a trainee: %s\n", protocol.title.c_str(),
+              protocol.id.c_str(), study::longestTimeInWords(protocol).c_str());
   for (const study::Group& group : protocol.groups) reportGroup(protocol, studies, group.name);
   const std::vector<record::Enrolment> enrolled = studies.enrolments(protocol.id);
   std::printf("%zu enrolled\n", enrolled.size());

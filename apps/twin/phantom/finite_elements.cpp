@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "anatomy/base/error.h"
+
 namespace palpa::twin {
 namespace {
 
@@ -225,7 +227,13 @@ Grid gridOf(const SoftBlock& block, const std::vector<double>& tool_x, double re
 
 BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius,
                  const Fineness& fineness) {
+  constexpr std::size_t kMostNodes = 100'000;
   const Grid g = gridOf(block, tool_x, 0.8 * tool_radius, fineness);
+  if (const std::size_t nodes = g.x.size() * g.y.size() * g.z.size(); nodes > kMostNodes)
+    throw UsageError("would be solved at " + std::to_string(nodes) + " points, more than " +
+                         std::to_string(kMostNodes),
+                     "the soft block",
+                     "Make it smaller, or table/finest_mm or table/growth larger");
   BlockMesh mesh;
   for (const double z : g.z) {
     for (const double y : g.y) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
 #include "anatomy/base/whole_file.h"
@@ -69,7 +70,7 @@ std::vector<std::vector<double>> readCells(const JsonFile& tables, const char* l
 
 PhantomFile readPhantoms(const std::filesystem::path& name) {
   const JsonFile file(name);
-  file.needVersion(1);
+  needKind(file, "phantoms", 1);
   PhantomFile all;
   SoftBlock block;
   block.length = kMm * file.number("block/length_mm", 20, 400);
@@ -138,7 +139,7 @@ std::vector<Phantom> readSolved(const std::filesystem::path& name,
                                 const std::filesystem::path& tables_name) {
   PhantomFile file = readPhantoms(name);
   const JsonFile tables(tables_name);
-  tables.needVersion(1);
+  needKind(tables, "phantom_tables", 1);
   if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
     tables.refuse("made_of", "is not " + name.string() + " (solve it again: palpa phantom solve)");
   for (const char* list : {"tables", "pairs"}) {

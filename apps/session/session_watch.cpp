@@ -1,0 +1,71 @@
+#include "apps/session/session_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "apps/os/socket.h"
+
+namespace palpa::session {
+namespace {
+
+// The signal waits no longer for us than for the tick that takes the force away.
+constexpr std::int64_t kSignalPeriod = 5 * runtime::kMillisecond;
+constexpr std::int64_t kVirtualPeriod = 50 * runtime::kMillisecond;
+constexpr std::int64_t kStuckPeriod = 250 * runtime::kMillisecond;
+constexpr std::int64_t kStuck = 2 * runtime::kSecond;
+constexpr int kKeyWait_ms = 50;
+
+}  // namespace
+
+std::string partInWords(const std::string& activity) {
+  static const std::map<std::string, std::string> kWords{
+      {"scene", "the picture"},      {"camera", "the camera"},
+      {"recorder", "the evidence"},  {"falcon", "the haptic device"},
+      {"haptic", "the haptic loop"}, {"igtl", "OpenIGTLink"},
+      {"tracker", "the tracker"},    {"task", "the task"},
+      {"geometry", "the geometry"},  {"stop key", "the space bar's thread"},
+      {"progress", "the terminal"},  {"force sensor", "the force sensor"}};
+  const auto found = kWords.find(activity);
+  return found == kWords.end() ? activity : found->second;
+}
+
+std::int64_t SessionWatch::step(std::int64_t now_ns) {
+  if (note_.noted()) return endSession("Interrupted");
+  if (window_lost_.load()) return endSession("The window is gone");
+  if (executive_.mode() == runtime::TimeMode::virtual_time) return now_ns + kVirtualPeriod;
+  if (now_ns >= next_look_ns_) nameTheStuck(now_ns);
+  return now_ns + kSignalPeriod;
+}
+
+std::int64_t SessionWatch::endSession(const char* why) {
+  stop_.end();
+  channels_.signals_to_task.push({trial::UserCommand::quit, why});
+  return runtime::kNever;
+}
+
+void SessionWatch::nameTheStuck(std::int64_t now_ns) {
+  next_look_ns_ = now_ns + kStuckPeriod;
+  const runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
+  const auto tell = [this](const runtime::Executive::Stuck& of,
+                           const runtime::Executive::Stuck& not_in, const char* what) {
+    for (const std::string& name : of)
+      if (std::find(not_in.begin(), not_in.end(), name) == not_in.end())
+        channels_.signals_to_task.push({trial::UserCommand::remark, partInWords(name) + what});
+  };
+  tell(stuck, stuck_, " does not answer; all other parts go on");
+  tell(stuck_, stuck, " answers again");
+  stuck_ = stuck;
+}
+
+std::int64_t StopKeyWatch::step(std::int64_t now_ns) {
+  const int server = key_.descriptor();
+  if (server < 0) return runtime::kNever;
+  if (key_.pressed()) stop_.press();
+  const std::array<os::WatchedSocket, 1> watched{{{server}}};
+  os::waitForAny(watched, kKeyWait_ms);
+  if (key_.pressed()) stop_.press();
+  return now_ns;
+}
+
+}  // namespace palpa::session

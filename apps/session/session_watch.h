@@ -1,0 +1,58 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "apps/os/signals.h"
+#include "apps/runtime/activity.h"
+#include "apps/runtime/executive.h"
+#include "apps/runtime/stop_switch.h"
+#include "apps/trial/trial_status.h"
+#include "scene/window/stop_key.h"
+
+namespace palpa::session {
+
+/// Past whatever hangs, on a thread of its own. A signal to end (Ctrl-C, SIGTERM, a terminal that
+/// is gone) and a lost window close a session as Escape does, but the force is gone with the next
+/// tick: the trial is ended, files are written. A part that does not answer for two seconds is
+/// named in the record and to whoever looks on, and again when it is back.
+class SessionWatch final : public runtime::Activity {
+ public:
+  SessionWatch(const runtime::Executive& executive, trial::Channels& channels,
+               runtime::StopSwitch& stop)
+      : executive_(executive), channels_(channels), stop_(stop) {}
+  const char* name() const override { return "watch"; }
+  std::int64_t step(std::int64_t now_ns) override;
+
+  void windowIsLost() noexcept { window_lost_.store(true); }  ///< any thread
+
+ private:
+  std::int64_t endSession(const char* why);
+  void nameTheStuck(std::int64_t now_ns);
+
+  const runtime::Executive& executive_;
+  trial::Channels& channels_;
+  runtime::StopSwitch& stop_;
+  std::atomic<bool> window_lost_{false};
+  os::InterruptNote note_;
+  runtime::Executive::Stuck stuck_;  ///< as last named
+  std::int64_t next_look_ns_ = 0;
+};
+
+/// What a person calls a part of the session: "the picture" for "scene".
+std::string partInWords(const std::string& activity);
+
+/// The space bar's thread. Real time only: a step lasts until something comes, or 50 ms.
+class StopKeyWatch final : public runtime::Activity {
+ public:
+  StopKeyWatch(scene::StopKey& key, runtime::StopSwitch& stop) : key_(key), stop_(stop) {}
+  const char* name() const override { return "stop key"; }
+  std::int64_t step(std::int64_t now_ns) override;
+
+ private:
+  scene::StopKey& key_;
+  runtime::StopSwitch& stop_;
+};
+
+}  // namespace palpa::session

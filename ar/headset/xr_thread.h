@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <thread>
+
+namespace palpa::ar {
+
+/// A thread for all calls of a runtime, any of which may never come back. It takes one step at a
+/// time. What a step uses belongs to it until wait() or busy() says that it has ended.
+class XrThread {
+ public:
+  using Duration = std::chrono::milliseconds;
+
+  XrThread();
+  ~XrThread();  ///< a thread that is still in its step is left behind
+  XrThread(const XrThread&) = delete;
+  XrThread& operator=(const XrThread&) = delete;
+  /// Only when it is not busy. The step throws nothing.
+  void start(std::function<void()> step);
+  bool wait(Duration longest);  ///< whether the step has ended
+  bool busy() { return !wait(Duration::zero()); }
+  Duration busyFor();  ///< since the step was started; zero: it has ended
+
+ private:
+  struct Shared;
+  std::shared_ptr<Shared> shared_;
+  std::thread thread_;
+};
+
+/// Keeps `all` that a hanging step uses until the program ends, and the code that the step runs in:
+/// from now on no library is unloaded, and the program ends without asking them, since one of them
+/// may wait for its hanging thread.
+void leaveBehind(std::shared_ptr<void> all);
+
+}  // namespace palpa::ar

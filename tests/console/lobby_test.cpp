@@ -1,0 +1,242 @@
+#include "apps/console/lobby.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <thread>
+#include <utility>
+
+#include "apps/runtime/clock.h"
+
+namespace palpa::console {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr char kHead[] = "GET / HTTP/1.1\r\nHost: x\r\n\r\n";
+constexpr char kStop[] = "POST /api/sessions/a1/stop HTTP/1.1\r\nContent-Length: 2\r\n\r\n{}";
+
+template <class Seen>
+bool comesTo(Seen seen) {
+  const auto until = runtime::ServingClock::now() + 60s;
+  while (runtime::ServingClock::now() < until) {
+    if (seen()) return true;
+    runtime::rest(5ms);
+  }
+  return false;
+}
+
+/// Somebody at another address of this computer.
+class Visitor {
+ public:
+  Visitor(int listener_port, const char* from)
+      : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in here{}, there{};
+    here.sin_family = there.sin_family = AF_INET;
+    ::inet_pton(AF_INET, from, &here.sin_addr);
+    ::inet_pton(AF_INET, "127.0.0.1", &there.sin_addr);
+    there.sin_port = htons(static_cast<std::uint16_t>(listener_port));
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&here), sizeof here), 0);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&there), sizeof there), 0);
+  }
+  ~Visitor() { ::close(socket_); }
+  Visitor(const Visitor&) = delete;
+  Visitor& operator=(const Visitor&) = delete;
+  void say(const std::string& bytes) const { os::sendSome(socket_, bytes.data(), bytes.size()); }
+  /// What came; the connection has ended.
+  std::string lastWords() const {
+    std::string all;
+    char bytes[1024];
+    for (ssize_t count; (count = ::recv(socket_, bytes, sizeof bytes, 0)) > 0;)
+      all.append(bytes, static_cast<std::size_t>(count));
+    return all;
+  }
+  bool isEnded() const {
+    char byte = 0;
+    return ::recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) >= 0;
+  }
+
+ private:
+  const int socket_;
+};
+
+/// A lobby that runs, and who came out of it.
+struct Entrance {
+  Entrance()
+      : lobby({[this](std::unique_ptr<Caller> caller) { put(requests, std::move(caller)); },
+               [this](std::unique_ptr<Caller> caller) { put(stops, std::move(caller)); },
+               [this](const std::string&) { ++slow; }, [this] { ++away; }}) {
+    os::neverWait(listener);
+    thread = std::thread([this] { lobby.run(listener); });
+  }
+  ~Entrance() {
+    lobby.end();
+    thread.join();
+    os::closeSocket(listener);
+  }
+  static int listening() {
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in here{};
+    here.sin_family = AF_INET;
+    here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::bind(socket, reinterpret_cast<sockaddr*>(&here), sizeof here), 0);
+    EXPECT_EQ(::listen(socket, 512), 0);
+    return socket;
+  }
+  void put(std::vector<std::unique_ptr<Caller>>& to, std::unique_ptr<Caller> caller) {
+    const std::lock_guard lock(mutex);
+    to.push_back(std::move(caller));
+  }
+  std::size_t count(const std::vector<std::unique_ptr<Caller>>& of) {
+    const std::lock_guard lock(mutex);
+    return of.size();
+  }
+  std::unique_ptr<Caller> next(std::vector<std::unique_ptr<Caller>>& from) {
+    EXPECT_TRUE(comesTo([&] { return count(from) > 0; }));
+    const std::lock_guard lock(mutex);
+    if (from.empty()) return nullptr;
+    std::unique_ptr<Caller> caller = std::move(from.front());
+    from.erase(from.begin());
+    return caller;
+  }
+
+  const int listener = listening();
+  const int port = os::ownOf(listener)->port;
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Caller>> requests, stops;
+  std::atomic<int> slow{0}, away{0};
+  Lobby lobby;
+  std::thread thread;
+};
+
+TEST(Lobby, HandsOnAWholeHeadHoweverItComes) {
+  Entrance entrance;
+  const Visitor visitor(entrance.port, "127.0.0.5");
+  for (const char c : std::string(kHead)) {
+    EXPECT_EQ(entrance.count(entrance.requests), 0u) << "before its end";
+    visitor.say(std::string(1, c));
+  }
+  const auto caller = entrance.next(entrance.requests);
+  ASSERT_TRUE(caller);
+  EXPECT_EQ(caller->said, kHead);
+  EXPECT_EQ(caller->remote, "127.0.0.5");
+  int on = 0;
+  socklen_t size = sizeof on;
+  ::getsockopt(caller->socket, IPPROTO_TCP, TCP_NODELAY, &on, &size);
+  EXPECT_NE(on, 0) << "a small answer would wait for the other side's word";
+}
+
+TEST(Lobby, AnswersComeBackAndTheNextRequestMayBeThereAlready) {
+  Entrance entrance;
+  const Visitor visitor(entrance.port, "127.0.0.1");
+  visitor.say(kHead);
+  auto caller = entrance.next(entrance.requests);
+  ASSERT_TRUE(caller);
+  caller->said = "POST /next";  // came with the first
+  entrance.lobby.comeBack(std::move(caller));
+  visitor.say(" HTTP/1.1\r\n\r\n");
+  caller = entrance.next(entrance.requests);
+  ASSERT_TRUE(caller);
+  EXPECT_EQ(caller->said, "POST /next HTTP/1.1\r\n\r\n");
+}
+
+TEST(Lobby, AStopGoesItsOwnWayWhenAllOfItIsHere) {
+  Entrance entrance;
+  const Visitor visitor(entrance.port, "127.0.0.1");
+  const std::string stop = kStop;
+  visitor.say(stop.substr(0, stop.size() - 1));
+  runtime::rest(100ms);
+  EXPECT_EQ(entrance.count(entrance.stops) + entrance.count(entrance.requests), 0u)
+      << "a byte of it is missing";
+  visitor.say(stop.substr(stop.size() - 1));
+  const auto caller = entrance.next(entrance.stops);
+  ASSERT_TRUE(caller);
+  EXPECT_EQ(caller->said, stop);
+}
+
+/// Nobody reaches the stop's thread with what it would have to wait for.
+TEST(Lobby, WhatOnlyLooksLikeAStopIsARequest) {
+  for (const char* said :
+       {"GET /api/sessions/a1/stop HTTP/1.1\r\n\r\n",
+        "POST /api/sessions/a1/stop HTTP/1.1\r\nContent-Length: 9999\r\n\r\n",
+        "POST /api/sessions/a1/stop HTTP/1.1\r\nContent-Length: 2\r\nContent-Length: 2\r\n\r\n{}",
+        "POST /api/sessions/a1/stopped HTTP/1.1\r\n\r\n", "POST /stop HTTP/1.1\r\n\r\n",
+        "POST /api/sessions/a1/command HTTP/1.1\r\nX: /stop HTTP/1.1\r\n\r\n"}) {
+    Entrance entrance;
+    const Visitor visitor(entrance.port, "127.0.0.1");
+    visitor.say(said);
+    EXPECT_TRUE(entrance.next(entrance.requests)) << said;
+    EXPECT_EQ(entrance.count(entrance.stops), 0u) << said;
+  }
+}
+
+/// Silent ones of one address take no place from another, nor from who speaks at their own.
+TEST(Lobby, WhoIsSilentLongestMakesRoomWithinItsAddress) {
+  Entrance entrance;
+  const Visitor other(entrance.port, "127.0.0.2");
+  ASSERT_TRUE(comesTo([&] { return !os::ready(entrance.listener, os::Wait::to_read, 0); }));
+  std::vector<std::unique_ptr<Visitor>> silent;
+  for (int i = 0; i < 60; ++i)
+    silent.push_back(std::make_unique<Visitor>(entrance.port, "127.0.0.1"));
+  ASSERT_TRUE(comesTo([&] { return entrance.away >= 60 - static_cast<int>(Lobby::kMostOfOne); }));
+  EXPECT_EQ(silent.front()->lastWords().rfind("HTTP/1.1 503 ", 0), 0u) << "the first goes first";
+  const Visitor speaks(entrance.port, "127.0.0.1");
+  speaks.say(kHead);
+  const auto own = entrance.next(entrance.requests);
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->remote, "127.0.0.1");
+  other.say(kHead);
+  const auto first = entrance.next(entrance.requests);
+  ASSERT_TRUE(first) << "who came before them all has gone";
+  EXPECT_EQ(first->remote, "127.0.0.2");
+  const Visitor stops(entrance.port, "127.0.0.1");
+  stops.say(kStop);
+  EXPECT_TRUE(entrance.next(entrance.stops));
+}
+
+TEST(Lobby, ManyAddressesTogetherHaveABoundToo) {
+  Entrance entrance;
+  std::vector<std::unique_ptr<Visitor>> silent;
+  for (int i = 0; i < 150; ++i)
+    silent.push_back(std::make_unique<Visitor>(entrance.port,
+                                               ("127.0.1." + std::to_string(1 + i % 10)).c_str()));
+  ASSERT_TRUE(comesTo([&] { return entrance.away >= 150 - static_cast<int>(Lobby::kMost); }));
+  const Visitor stranger(entrance.port, "127.0.0.9");
+  stranger.say(kHead);
+  EXPECT_TRUE(entrance.next(entrance.requests));
+}
+
+TEST(Lobby, WhoSaysNothingOrNeverEndsIsLetGo) {
+  Entrance entrance;
+  const Visitor silent(entrance.port, "127.0.0.1"), slow(entrance.port, "127.0.0.2");
+  slow.say("GET / HTTP/1.1\r\nX-A: ");
+  EXPECT_EQ(silent.lastWords(), "");
+  EXPECT_TRUE(comesTo([&] {
+    slow.say("a");
+    return slow.isEnded();
+  }));
+  EXPECT_EQ(entrance.slow, 1) << "only a request that was begun is one";
+  EXPECT_EQ(entrance.count(entrance.requests), 0u);
+}
+
+TEST(Lobby, AHeadWithoutEndIsHandedOnToBeRefused) {
+  Entrance entrance;
+  const Visitor visitor(entrance.port, "127.0.0.1");
+  std::thread talks([&] {
+    for (int i = 0; i < 64; ++i) {
+      visitor.say(std::string(1024, 'a'));
+      runtime::rest(1ms);
+    }
+  });
+  const auto caller = entrance.next(entrance.requests);
+  talks.join();
+  ASSERT_TRUE(caller);
+  EXPECT_LT(caller->said.size(), 64u << 10);
+}
+
+}  // namespace
+}  // namespace palpa::console

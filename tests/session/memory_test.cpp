@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "anatomy/base/quantile.h"
+#include "apps/session/palpation_session.h"
+#include "apps/session/search_session.h"
+#include "apps/session/squeeze_session.h"
+#include "tests/session/quick_sessions.h"
+#include "tests/support/counts.h"
+#include "tests/support/live_bytes.h"
+
+/// What a session holds does not grow with its trials but by their results: the ticks are in the
+/// evidence. A needle's trial has some 20,000 ticks of 144 bytes.
+namespace palpa::session {
+namespace {
+
+constexpr double kResultBytes = 50'000;  // bytes of a trial
+
+SessionOptions sessionOf(int trials) {
+  SessionOptions options = quick(OperatorKind::expert, 11);
+  options.trials = trials;
+  return options;
+}
+
+/// Bytes a trial in what `run` leaves.
+template <typename Run>
+double heldPerTrial(const Run& run) {
+  const std::int64_t before = LiveBytes::now();
+  const auto left = run();
+  return static_cast<double>(LiveBytes::now() - before) / static_cast<double>(left.trials.size());
+}
+
+double middleOf(std::vector<std::int64_t>::const_iterator from,
+                std::vector<std::int64_t>::const_iterator to) {
+  return quantile(std::vector<double>(from, to), 0.5);
+}
+
+/// From the second third of the session to the last.
+double growthPerTrial(int trials) {
+  const std::vector<std::int64_t> lows = LiveBytes::lows();
+  const auto third = static_cast<std::ptrdiff_t>(lows.size() / 3);
+  const double second = middleOf(lows.begin() + third, lows.begin() + 2 * third),
+               last = middleOf(lows.begin() + 2 * third, lows.end());
+  return (last - second) / (trials / 3.0);
+}
+
+TEST(Memory, OfANeedleDoesNotGrowWithItsTrials) {
+  const SessionOptions options = sessionOf(test::counted(6, 30));
+  Quick<NeedleWorld> world(options);
+  const double held = heldPerTrial([&] {
+    LiveBytes::note();
+    return runNeedleSession(options, world, freshPlace("needle"));
+  });
+  const double grown = growthPerTrial(options.trials);
+  std::printf("a needle's trial: %.1f kB while it goes on, %.1f kB left\n", 1e-3 * grown,
+              1e-3 * held);
+  EXPECT_LT(grown, kResultBytes);
+  EXPECT_LT(held, kResultBytes);
+  EXPECT_GT(held, sizeof(task_needle::CompletedTrial)) << "nothing was counted";
+}
+
+TEST(Memory, OfOtherTasksIsThatOfTheirResults) {
+  const SessionOptions options = sessionOf(2);
+  const Quick<PalpationWorld> palpation(options);
+  EXPECT_LT(heldPerTrial([&] { return runPalpation(options, palpation, freshPlace("palpation")); }),
+            kResultBytes);
+  const Quick<SearchWorld> search(options);
+  EXPECT_LT(heldPerTrial([&] { return runSearch(options, search, freshPlace("search")); }),
+            kResultBytes);
+  const Quick<SqueezeWorld> squeeze(options);
+  EXPECT_LT(heldPerTrial([&] { return runSqueeze(options, squeeze, freshPlace("squeeze")); }),
+            kResultBytes);
+}
+
+}  // namespace
+}  // namespace palpa::session
