@@ -1,10 +1,9 @@
-#include <system_error>
-
 #include <nlohmann/json.hpp>
 
-#include "anatomy/base/error.h"
+#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/os/file_access.h"
 #include "apps/record/store/deletions.h"
 
 namespace palpa::record {
@@ -26,8 +25,8 @@ DeletionList listIn(const json& text) {
 }
 
 json textOf(const DeletionList& list) {
-  json text{{"kind", kListKind},       {"version", kListVersion},  {"records", list.records},
-            {"salt", list.salt},       {"people", json::array()},  {"sessions", json::array()}};
+  json text{{"kind", kListKind}, {"version", kListVersion}, {"records", list.records},
+            {"salt", list.salt}, {"people", json::array()}, {"sessions", json::array()}};
   for (const DeletedPerson& person : list.people)
     text["people"].push_back({{"digest", person.digest}, {"deleted_utc", person.deleted_utc}});
   for (const DeletedSession& session : list.sessions)
@@ -52,11 +51,9 @@ std::optional<DeletionList> readDeletions(const fs::path& file) {
 }
 
 void writeDeletions(const DeletionList& list, const fs::path& file) {
-  std::error_code problem;
-  fs::create_directories(file.parent_path(), problem);
-  if (problem)
-    throw Error("cannot be made (" + problem.message() + ")", file.parent_path().string(),
-                "Make it writable, or set XDG_STATE_HOME to another folder");
+  if (const std::error_code problem = os::makeFolders(file.parent_path()))
+    failFile("cannot be made", file.parent_path(), problem,
+             "Or set XDG_STATE_HOME to another folder");
   writeWhole(file, textOf(list).dump(1) + "\n");
 }
 

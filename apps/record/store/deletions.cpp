@@ -17,8 +17,11 @@ constexpr int kDigestRounds = 30'000;
 
 /// Of all records of this user; empty where there is no home.
 fs::path stateLists() {
-  const fs::path state = os::stateFolder("");
-  return state.is_absolute() ? state / "palpa/deletions" : fs::path();
+  try {
+    return os::stateFolder("") / "palpa/deletions";
+  } catch (const UsageError&) {
+    return {};
+  }
 }
 
 fs::path listBeside(const std::string& url) { return url + ".deletions.json"; }
@@ -211,8 +214,8 @@ void Deletions::insert(const DeletionList& list) {
         "CONFLICT(session) DO NOTHING",
         {session.uuid, session.deleted_utc});
     if (!session.removed) continue;
-    const SqlRows left = connection_.query("SELECT evidence FROM deleted_evidence WHERE session=$1",
-                                           {session.uuid});
+    const SqlRows left =
+        connection_.query("SELECT evidence FROM deleted_evidence WHERE session=$1", {session.uuid});
     if (left.empty() || !isHere(left.text(0, 0)))
       noteRemoved(session.uuid);
     else
