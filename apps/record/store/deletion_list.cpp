@@ -26,8 +26,8 @@ DeletionList listIn(const json& text) {
 }
 
 json textOf(const DeletionList& list) {
-  json text{{"kind", kListKind},       {"version", kListVersion},  {"records", list.records},
-            {"salt", list.salt},       {"people", json::array()},  {"sessions", json::array()}};
+  json text{{"kind", kListKind}, {"version", kListVersion}, {"records", list.records},
+            {"salt", list.salt}, {"people", json::array()}, {"sessions", json::array()}};
   for (const DeletedPerson& person : list.people)
     text["people"].push_back({{"digest", person.digest}, {"deleted_utc", person.deleted_utc}});
   for (const DeletedSession& session : list.sessions)

@@ -211,8 +211,8 @@ void Deletions::insert(const DeletionList& list) {
         "CONFLICT(session) DO NOTHING",
         {session.uuid, session.deleted_utc});
     if (!session.removed) continue;
-    const SqlRows left = connection_.query("SELECT evidence FROM deleted_evidence WHERE session=$1",
-                                           {session.uuid});
+    const SqlRows left =
+        connection_.query("SELECT evidence FROM deleted_evidence WHERE session=$1", {session.uuid});
     if (left.empty() || !isHere(left.text(0, 0)))
       noteRemoved(session.uuid);
     else
