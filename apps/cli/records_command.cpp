@@ -187,10 +187,10 @@ void addTrainees(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
       ->type_name("YYYY-MM-DD")
       ->check(whyNoDate);
   overdue->add_flag("--delete", o->remove, "Delete them, with their evidence");
-  CLI::App* remove = sub(
-      command, o, "delete",
-      "Delete a person: records, evidence, reports, and what the console keeps, for good",
-      deletePerson);
+  CLI::App* remove =
+      sub(command, o, "delete",
+          "Delete a person: records, evidence, reports, and what the console keeps, for good",
+          deletePerson);
   remove->add_option("--id", o->trainee.id, "The trainee's pseudonym")->type_name("ID");
   remove->add_flag("--left", o->left,
                    "Delete what earlier deletions had to leave, where it is on this computer");

@@ -48,8 +48,7 @@ class Deletion {
         records_(evidence::absoluteRecords(o.url)),
         home_(fs::absolute(o.home.empty() ? usualConsoleHome() : fs::path(o.home))
                   .lexically_normal()),
-        home_is_theirs_(!o.home.empty() ||
-                        records_ == evidence::absoluteRecords(usualRecords())) {}
+        home_is_theirs_(!o.home.empty() || records_ == evidence::absoluteRecords(usualRecords())) {}
 
   void person(const std::string& id);
   void leftOfOthers();
@@ -67,9 +66,9 @@ class Deletion {
   record::RecordStore& store_;
   const std::string records_;
   const fs::path home_;
-  const bool home_is_theirs_;  ///< the console's; it may keep other records' people
-  std::set<std::string> sessions_;             ///< of this run
-  std::set<fs::path> places_;                  ///< where evidence of this run was
+  const bool home_is_theirs_;       ///< the console's; it may keep other records' people
+  std::set<std::string> sessions_;  ///< of this run
+  std::set<fs::path> places_;       ///< where evidence of this run was
   std::map<std::string, std::string> reasons_;  ///< why a session's evidence stayed
   std::vector<std::string> troubles_;
   std::vector<fs::path> kept_;
@@ -109,9 +108,8 @@ void Deletion::removeFromConsole(const std::string& id, bool whole) {
   for (const fs::path& session : console::sessionsOf(home_, id)) {
     if (whole && home_is_theirs_)
       for (const auto& [file, owner] : evidenceIn(session, id)) removeEvidence(file, owner);
-    const bool emptied = std::any_of(places_.begin(), places_.end(), [&](const fs::path& file) {
-      return liesIn(file, session);
-    });
+    const bool emptied = std::any_of(places_.begin(), places_.end(),
+                                     [&](const fs::path& file) { return liesIn(file, session); });
     if (emptied || (whole && home_is_theirs_)) console::removeSessionTraces(session, &traces);
   }
   if (home_is_theirs_) console::removeHomeTraces(home_, id, &traces);
@@ -158,8 +156,7 @@ void Deletion::leftOfOthers() {
 void Deletion::sayWhatIsKept() {
   std::error_code none;
   for (const fs::path& file : kept_)
-    if (fs::exists(file, none))
-      std::printf("Kept, since no session wrote it: %s\n", file.c_str());
+    if (fs::exists(file, none)) std::printf("Kept, since no session wrote it: %s\n", file.c_str());
 }
 
 /// What learning record stores were told of a deleted person is to be taken back.

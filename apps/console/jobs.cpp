@@ -76,7 +76,8 @@ nlohmann::json Jobs::ask(JobRequest request) {
   }
   nlohmann::json told = one(id);
   const bool page_gone = told["state"] == "done" && !pageless && told["page"] == "";
-  if (page_gone) told["state"] = "working";  // with somebody who was deleted: asked again, it is made
+  if (page_gone)
+    told["state"] = "working";  // with somebody who was deleted: asked again, it is made
   if (page_gone || told["state"] == "failed") {
     const std::lock_guard lock(mutex_);
     asked_.erase(key);

@@ -100,7 +100,8 @@ void removeHomeTraces(const fs::path& home, const std::string& trainee, PersonTr
     if (isId(job.filename().string()) && anyFileMentions(job, trainee))
       traces->jobs += removeWhole(job, traces) ? 1 : 0;
   for (const fs::path& log : entriesOf(home))
-    if (log.filename().string().find(".log") != std::string::npos) removeLines(log, trainee, traces);
+    if (log.filename().string().find(".log") != std::string::npos)
+      removeLines(log, trainee, traces);
 }
 
 }  // namespace palpa::console

@@ -21,8 +21,8 @@ std::vector<std::filesystem::path> sessionsOf(const std::filesystem::path& home,
 /// else is left in it.
 void removeSessionTraces(const std::filesystem::path& folder, PersonTraces* traces);
 
-/// Removes every job with the name in one of its files (all can be made again), and the lines of the
-/// console's own logs that hold it.
+/// Removes every job with the name in one of its files (all can be made again), and the lines of
+/// the console's own logs that hold it.
 void removeHomeTraces(const std::filesystem::path& home, const std::string& trainee,
                       PersonTraces* traces);
 

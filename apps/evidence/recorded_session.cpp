@@ -103,7 +103,7 @@ bool sameWords(const haptics::FlightRecord& a, const haptics::FlightRecord& b) {
 }
 
 /// Forces, torque and depth of a tick.
-std::array<double, 13> figuresOf(const haptics::FlightRecord& r) {
+std::array<double, 13> comparedOf(const haptics::FlightRecord& r) {
   std::array<double, 13> all{};
   auto* next = all.data();
   for (const Packed3& v : {r.f_contact_D, r.f_command_D, r.tau_missing_D, r.f_augmentation_D})
@@ -116,7 +116,7 @@ void count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& a
            ReplayCheck* check) {
   ++check->ticks;
   Likeness found = sameWords(recorded, again) ? Likeness::same_bits : Likeness::changed;
-  const std::array<double, 13> was = figuresOf(recorded), is = figuresOf(again);
+  const std::array<double, 13> was = comparedOf(recorded), is = comparedOf(again);
   double largest = 0;
   for (std::size_t i = 0; i < was.size(); ++i) {
     found = worse(found, likeness(was[i], is[i]));

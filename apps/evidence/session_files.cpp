@@ -87,8 +87,8 @@ void removeBeside(const fs::path& folder, const EvidenceOwner& owner, bool owned
     std::error_code none;
     if (owned && name == "demonstration" && fs::is_directory(fs::symlink_status(file, none)))
       removeDemonstration(file, removal);
-    else if (isSessionsOwn(name) && (owned || (isOneOf(kTexts, name) &&
-                                               namesTrainee(file, owner.trainee))))
+    else if (isSessionsOwn(name) &&
+             (owned || (isOneOf(kTexts, name) && namesTrainee(file, owner.trainee))))
       removal->files += removeFile(file, &removal->troubles) ? 1 : 0;
   }
 }

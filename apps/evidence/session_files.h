@@ -22,9 +22,9 @@ enum class RemovalEnd {
 
 struct SessionRemoval {
   RemovalEnd end = RemovalEnd::absent;
-  std::size_t files = 0;                     ///< removed
-  std::vector<std::string> troubles;         ///< what could not be removed and why, in words
-  std::vector<std::filesystem::path> kept;   ///< what stays in its folder: no session wrote it
+  std::size_t files = 0;                    ///< removed
+  std::vector<std::string> troubles;        ///< what could not be removed and why, in words
+  std::vector<std::filesystem::path> kept;  ///< what stays in its folder: no session wrote it
 };
 
 /// Removes what a session left: its evidence, report, table, pictures, films, demonstration; its

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <httplib.h>
+#undef _res  // a macro of <resolv.h>, a name in Eigen
 
 namespace palpa::link {
 

@@ -113,7 +113,8 @@ std::vector<Letter> Outbox::sent(const Route& route) {
 
 void Outbox::takeBack(const Route& route, const std::string& id, const Letter& voiding) {
   record::Transaction transaction(database_);
-  record::Statement(database_, "UPDATE letters SET state=2,body='',person='' WHERE endpoint=? AND id=?")
+  record::Statement(database_,
+                    "UPDATE letters SET state=2,body='',person='' WHERE endpoint=? AND id=?")
       .bind(route.endpoint, id)
       .run();
   insert(route, voiding);

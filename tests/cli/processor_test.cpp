@@ -24,20 +24,20 @@ class OlderProcessor {
   test::Setting libc_, opencv_;
 };
 
-Outcome run(const std::vector<std::string>& arguments, const Folder& here, bool older) {
+Outcome runOn(const std::vector<std::string>& arguments, const Folder& here, bool older) {
   std::optional<OlderProcessor> processor;
   if (older) processor.emplace();
   return palpa(arguments, here.path());
 }
 
-struct Task {
+struct KindOfTask {
   const char* name;
   std::vector<std::string> words;
 };
 
-void PrintTo(const Task& task, std::ostream* out) { *out << task.name; }
+void PrintTo(const KindOfTask& task, std::ostream* out) { *out << task.name; }
 
-class OnAnyProcessor : public ::testing::TestWithParam<Task> {};
+class OnAnyProcessor : public ::testing::TestWithParam<KindOfTask> {};
 
 /// In turn recorded with everything and replayed with less, and the other way round.
 TEST_P(OnAnyProcessor, AReplayHasTheSameBits) {
@@ -48,25 +48,25 @@ TEST_P(OnAnyProcessor, AReplayHasTheSameBits) {
     const std::string seed = std::to_string(41 + i / 2);
     words.insert(words.end(), {"--operator", i % 4 < 2 ? "expert" : "novice", "--seed", seed,
                                "--trials", "1", "--out", "A"});
-    const Outcome recorded = run(quickly(words), here, !older);
+    const Outcome recorded = runOn(quickly(words), here, !older);
     ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
-    const Outcome replayed = run({"replay", "A/session.palpa"}, here, older);
+    const Outcome replayed = runOn({"replay", "A/session.palpa"}, here, older);
     EXPECT_EQ(replayed.exit_code, 0) << replayed.err << replayed.out;
     EXPECT_TRUE(says(replayed.out, ": 0 differ")) << replayed.out;
     EXPECT_TRUE(says(replayed.out, "The replay equals the record")) << replayed.out;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tasks, OnAnyProcessor,
-                         ::testing::Values(Task{"paracentesis", {"paracentesis"}},
-                                           Task{"bone_pin",
-                                                {"train", "--task",
-                                                 std::string(PALPA_SOURCE_DIR) +
-                                                     "/assets/tasks/bone_pin.json"}},
-                                           Task{"palpation", {"palpation", "--preset", "prostate"}},
-                                           Task{"search", {"search", "--mode", "augmented"}},
-                                           Task{"squeeze", {"squeeze"}}),
-                         [](const auto& task) { return std::string(task.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Tasks, OnAnyProcessor,
+    ::testing::Values(KindOfTask{"paracentesis", {"paracentesis"}},
+                      KindOfTask{"bone_pin",
+                                 {"train", "--task",
+                                  std::string(PALPA_SOURCE_DIR) + "/assets/tasks/bone_pin.json"}},
+                      KindOfTask{"palpation", {"palpation", "--preset", "prostate"}},
+                      KindOfTask{"search", {"search", "--mode", "augmented"}},
+                      KindOfTask{"squeeze", {"squeeze"}}),
+    [](const auto& task) { return std::string(task.param.name); });
 
 }  // namespace
 }  // namespace palpa::cli_test

@@ -80,7 +80,8 @@ class Deletions {
 };
 
 /// Rows of a session, and of its trials, metrics, events, calibrations; where its evidence lies is
-/// kept unless `evidence_removed`, and it is not there again. False: it is not there. Within a transaction.
+/// kept unless `evidence_removed`, and it is not there again. False: it is not there. Within a
+/// transaction.
 bool deleteSessionRows(SqlConnection& connection, const std::string& session,
                        bool evidence_removed);
 

@@ -94,11 +94,11 @@ RecordStore::RecordStore(const std::string& url)
   migrate(*connection_);
   const DeletedAgain again = deletions_.obey();
   if (again.people + again.sessions == 0) return;
-  std::fprintf(stderr, "Deleted again from the %s, into which a backup had brought them: %s, %s%s\n",
-               place().c_str(),
-               counted(static_cast<std::size_t>(again.people), "deleted trainee").c_str(),
-               counted(static_cast<std::size_t>(again.sessions), "session").c_str(),
-               evidenceToDelete().empty() ? "" : "; their evidence: palpa records delete --left");
+  std::fprintf(
+      stderr, "Deleted again from the %s, into which a backup had brought them: %s, %s%s\n",
+      place().c_str(), counted(static_cast<std::size_t>(again.people), "deleted trainee").c_str(),
+      counted(static_cast<std::size_t>(again.sessions), "session").c_str(),
+      evidenceToDelete().empty() ? "" : "; their evidence: palpa records delete --left");
 }
 
 void RecordStore::addTrainee(const Trainee& trainee) {

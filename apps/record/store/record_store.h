@@ -106,7 +106,8 @@ class RecordStore {
 
   std::string place() const { return connection_->place(); }
 
-  /// Throws UsageError for an id that is taken or malformed. One that was deleted may be given anew.
+  /// Throws UsageError for an id that is taken or malformed. One that was deleted may be given
+  /// anew.
   void addTrainee(const Trainee& trainee);
   void changeTrainee(const Trainee& trainee);  ///< throws UsageError for one who is not there
   std::optional<Trainee> trainee(const std::string& id);
@@ -150,8 +151,8 @@ class RecordStore {
 /// Why a pseudonym cannot be one; empty: it can.
 std::string whyNoPseudonym(const std::string& id);
 
-/// Whether a text names this pseudonym, as a word: no letter or digit beside it; `strictly`: nothing
-/// that a longer pseudonym could go on with.
+/// Whether a text names this pseudonym, as a word: no letter or digit beside it; `strictly`:
+/// nothing that a longer pseudonym could go on with.
 bool mentions(std::string_view text, const std::string& id, bool strictly = false);
 
 }  // namespace palpa::record
