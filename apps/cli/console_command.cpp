@@ -12,7 +12,7 @@
 #include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
 #include "apps/os/local_socket.h"
-#include "apps/session/event_tone.h"
+#include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 

@@ -5,7 +5,7 @@
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/records_actions.h"
 #include "apps/evidence/evidence_records.h"

@@ -6,11 +6,9 @@
 #include <thread>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/routes.h"
 #include "apps/os/file_access.h"
-#include "apps/os/file_lock.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
 #include "apps/os/socket.h"

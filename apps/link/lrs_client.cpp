@@ -9,7 +9,6 @@
 
 #include "anatomy/base/error.h"
 #include "apps/link/bounded_client.h"
-#include "apps/link/exchange_watch.h"
 #include "apps/os/socket.h"
 
 namespace palpa::link {

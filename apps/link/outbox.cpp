@@ -1,6 +1,6 @@
 #include "apps/link/outbox.h"
 
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 
 namespace palpa::link {

@@ -7,8 +7,8 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
-#include "anatomy/base/plain_text.h"
 #include "anatomy/base/sha256.h"
+#include "anatomy/base/text_forms.h"
 #include "anatomy/base/uuid.h"
 #include "apps/link/statement.h"
 #include "apps/runtime/clock.h"

@@ -1,4 +1,4 @@
-#include "anatomy/base/plain_text.h"
+#include "anatomy/base/text_forms.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 #include <nlohmann/json.hpp>
 
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 #include "apps/record/sqlite.h"
 #include "apps/record/store/sql_connection.h"

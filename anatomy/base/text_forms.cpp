@@ -1,10 +1,27 @@
-#include "anatomy/base/plain_text.h"
+#include "anatomy/base/text_forms.h"
 
+#include <openssl/evp.h>
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 namespace palpa {
+
+std::string base64(std::string_view bytes) {
+  std::string text((bytes.size() + 2) / 3 * 4, '\0');
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                  reinterpret_cast<const unsigned char*>(bytes.data()),
+                  static_cast<int>(bytes.size()));
+  return text;
+}
+
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 namespace {
 
 constexpr char32_t kNone = 0xffffffff;
