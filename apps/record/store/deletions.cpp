@@ -21,7 +21,9 @@ fs::path stateLists() {
   return state.is_absolute() ? state / "palpa/deletions" : fs::path();
 }
 
-fs::path listBeside(const std::string& url) { return url + ".deletions.json"; }
+fs::path listBeside(const std::string& url) {
+  return fs::absolute(url).string() + ".deletions.json";
+}
 
 /// Evidence, which may have come back with a backup as well.
 bool isHere(const std::string& evidence) {
