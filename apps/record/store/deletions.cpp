@@ -24,7 +24,9 @@ fs::path stateLists() {
   }
 }
 
-fs::path listBeside(const std::string& url) { return url + ".deletions.json"; }
+fs::path listBeside(const std::string& url) {
+  return fs::absolute(url).string() + ".deletions.json";
+}
 
 /// Evidence, which may have come back with a backup as well.
 bool isHere(const std::string& evidence) {
