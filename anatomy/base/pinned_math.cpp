@@ -25,11 +25,11 @@ struct Power {
 };
 
 /// For |x| below 2000; `rest` is much smaller than x.
-Power powerOf(double x, double rest) {
+[[gnu::always_inline]] inline Power powerOf(double x, double rest) {
   constexpr double kPerStep = 0x1.71547652b82fep7;  // 128 / ln 2
   constexpr double kStepHigh = 0x1.62e42fef8p-8, kStepLow = 0x1.1cf79abc9e3b4p-43;
   const double shifted = x * kPerStep + kWhole, steps = shifted - kWhole;
-  const auto n = static_cast<std::int64_t>(steps);
+  const auto n = std::bit_cast<std::int64_t>(shifted) - std::bit_cast<std::int64_t>(kWhole);
   const tables::Root& root = tables::kRoots[static_cast<std::size_t>(n & 127)];
   const double r = (x - steps * kStepHigh) - steps * kStepLow + rest, r2 = r * r;
   const double share =
@@ -37,14 +37,15 @@ Power powerOf(double x, double rest) {
   return {root.value, share, n >> 7};
 }
 
-/// 2^power for a power from -1022 to 1023.
-double twoTo(std::int64_t power) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(power + 1023) << 52);
+/// Value times 2^power where that is no smaller than the smallest normal number, and finite.
+[[gnu::always_inline]] inline double scaled(double value, std::int64_t power) {
+  return std::bit_cast<double>(std::bit_cast<std::int64_t>(value) +
+                               power * (std::int64_t{1} << 52));
 }
 
-double valueOf(const Power& p) {
+[[gnu::always_inline]] inline double valueOf(const Power& p) {
   if (p.power > -960 && p.power < 1023) {  // no product below the normal numbers
-    const double scale = p.value * twoTo(p.power);
+    const double scale = scaled(p.value, p.power);
     return scale + scale * p.share;
   }
   return std::ldexp(p.value + p.value * p.share, static_cast<int>(p.power));
@@ -52,20 +53,20 @@ double valueOf(const Power& p) {
 
 constexpr double kMostExp = 710, kLeastExp = -746;  // beyond: infinity, zero
 
-double expOf(double x, double rest) {
+[[gnu::always_inline]] inline double expOf(double x, double rest) {
   if (x > kMostExp) return kInfinity;
   if (x < kLeastExp) return 0;
   return valueOf(powerOf(x, rest));
 }
 
-/// log(x) = power ln 2 - log(inverse) + log(1 + r), with r = r_high + r_low exactly.
+/// log(x) = power ln 2 - log(inverse) + log(1 + r), exactly.
 struct Split {
-  double power, r, r_high, r_low;
+  double power, r;
   const tables::Reciprocal* entry;
 };
 
 /// Of a positive, finite x.
-Split splitOf(double x) {
+[[gnu::always_inline]] inline Split splitOf(double x) {
   constexpr std::uint64_t kLowest = 0x3fe6000000000000, kPower = 0xfff0000000000000;  // 0.6875
   double below = 0;
   if (x < kLeastNormal) x *= 0x1p52, below = 52;
@@ -77,16 +78,14 @@ Split splitOf(double x) {
   Split s;
   s.power = static_cast<double>(static_cast<std::int64_t>(above) >> 52) - below;
   s.entry = entry;
-  s.r_high = z_high * entry->inverse - 1;
-  s.r_low = (z - z_high) * entry->inverse;
-  s.r = s.r_high + s.r_low;
+  s.r = (z_high * entry->inverse - 1) + (z - z_high) * entry->inverse;  // every step is exact
   return s;
 }
 
 constexpr double kLn2High = 0x1.62e42fefa38p-1, kLn2Low = 0x1.ef35793c7673p-45;
 
 /// (log(1 + r) - r + r^2/2) / r^3, |r| < 2^-7
-double cubicRest(double r) {
+[[gnu::always_inline]] inline double cubicRest(double r) {
   const double r2 = r * r;
   return (1 / 3.0 - r * (1 / 4.0)) + r2 * (1 / 5.0 - r * (1 / 6.0)) +
          r2 * r2 * ((1 / 7.0 - r * (1 / 8.0)) + r2 * (1 / 9.0));
@@ -97,17 +96,14 @@ struct Double2 {
   double high, low;
 };
 
-/// To 66 bits. Of a positive, finite x.
-Double2 logOf(double x) {
+/// To 60 bits. Of a positive, finite x.
+[[gnu::always_inline]] inline Double2 logOf(double x) {
   const Split s = splitOf(x);
-  const double table = s.power * kLn2High + s.entry->high;        // exact
-  const double half = -0.5 * s.r_high, square = s.r_high * half;  // exact
-  const double first = table + s.r, second = first + square;
+  const double table = s.power * kLn2High + s.entry->high, first = table + s.r;  // the first exact
   const double low = s.power * kLn2Low + s.entry->low + (table - first + s.r) +
-                     s.r_low * (half - 0.5 * s.r) + (first - second + square) +
-                     s.r * s.r * s.r * cubicRest(s.r);
-  const double high = second + low;
-  return {high, second - high + low};
+                     s.r * s.r * (s.r * cubicRest(s.r) - 0.5);
+  const double high = first + low;
+  return {high, first - high + low};
 }
 
 /// x of the upper 26 bits: a product of two of them is exact.
@@ -115,7 +111,7 @@ double upperHalf(double x) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0xfffffffff8000000);
 }
 
-double powOfPositive(double x, double y) {
+[[gnu::always_inline]] inline double powOfPositive(double x, double y) {
   const Double2 l = logOf(x);
   if (std::abs(l.high * y) > 800) return (l.high > 0) == (y > 0) ? kInfinity : 0;
   const double y_high = upperHalf(y), l_high = upperHalf(l.high);
@@ -153,7 +149,7 @@ double expm1(double x) {
   if (x < -40) return -1;
   if (x > 40) return expOf(x, 0);
   const Power p = powerOf(x, 0);
-  const double scale = p.value * twoTo(p.power), rest = scale * p.share, most = scale - 1;
+  const double scale = scaled(p.value, p.power), rest = scale * p.share, most = scale - 1;
   const double lost = scale > 1 ? (scale - most) - 1 : scale - (most + 1);
   return most + (rest + lost);
 }
