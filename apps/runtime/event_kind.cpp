@@ -8,7 +8,7 @@ namespace {
 const EnumNames<EventKind> kEventKinds{
     "ready",   "start", "pause", "resume", "safety",   "emergency_stop", "rearm",   "device",
     "camera",  "note",  "case",  "phase",  "puncture", "withdrawn",      "wall",    "vein",
-    "touched", "mark",  "grade", "let_go", "thing",    "answer",         "computer"};
+    "touched", "mark",  "grade", "let_go", "thing",    "answer",         "computer", "picture"};
 
 }  // namespace
 

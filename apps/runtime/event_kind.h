@@ -29,7 +29,8 @@ enum class EventKind : std::uint8_t {
   let_go,      ///< the handle of a search
   thing,       ///< that is held now
   answer,      ///< which thing has more, 1 or 2
-  computer     ///< a part of it does not answer, or does again
+  computer,    ///< a part of it does not answer, or does again
+  picture      ///< is kept of this moment: its file and caption; trial time, s
 };
 
 /// "ready", ..., "case", ...: in records, logs and on the wire.
