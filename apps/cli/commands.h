@@ -22,6 +22,7 @@ void addSqueeze(CLI::App& program);
 void addSearch(CLI::App& program);
 void addTrain(CLI::App& program);  ///< any of them, by the task file
 void addReplay(CLI::App& program);
+void addFinish(CLI::App& program);  ///< what a session owes whose program died
 void addCalibrate(CLI::App& program);
 void addPatient(CLI::App& program);
 void addRender(CLI::App& program);

@@ -52,6 +52,7 @@ void addCommands(CLI::App& program) {
   addSearch(program);
   addTrain(program);
   addReplay(program);
+  addFinish(program);
   addCalibrate(program);
   addPatient(program);
   addRender(program);

@@ -57,7 +57,8 @@ json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedT
               const live::ToneOf& tone) {
   json all = json::array();
   for (const runtime::Event& event : events)
-    if (event.trial == trial.header.trial && !event.is(EventKind::trial_case))
+    if (event.trial == trial.header.trial && !event.is(EventKind::trial_case) &&
+        !event.is(EventKind::picture))
       all.push_back(
           {{"t_s", rounded(static_cast<double>((event.is(EventKind::note) && event.value > 0
                                                     ? static_cast<std::int64_t>(event.value * 1e9)

@@ -86,6 +86,11 @@ std::string taskOf(const record::SessionReader& reader) {
              : reader.info().command;
 }
 
+/// What the session's report says is for its report only.
+std::string withoutReport(const std::string& text, nlohmann::json session) {
+  return session.erase("report") > 0 ? session.dump() : text;
+}
+
 record::StoredSession sessionIn(const record::SessionReader& reader,
                                 const std::filesystem::path& evidence) {
   const record::SessionInfo& info = reader.info();
@@ -106,7 +111,7 @@ record::StoredSession sessionIn(const record::SessionReader& reader,
   }
   s.evidence = std::filesystem::absolute(evidence).string();
   s.evidence_sha256 = sha256OfFile(evidence);
-  s.facts_json = info.session_json;
+  s.facts_json = withoutReport(info.session_json, session);
   s.calibrations = calibrationsIn(station);
   return s;
 }
@@ -149,7 +154,8 @@ EvidenceRecords recordsOf(const std::filesystem::path& evidence) {
   }
   for (const runtime::Event& e : reader.events())
     for (record::StoredTrial& trial : records.trials)
-      if (trial.number == e.trial) trial.events.push_back({e.t_ns, e.kind, e.text, e.value});
+      if (trial.number == e.trial && !e.is(runtime::EventKind::picture))
+        trial.events.push_back({e.t_ns, e.kind, e.text, e.value});
   return records;
 }
 

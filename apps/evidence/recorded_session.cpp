@@ -12,9 +12,11 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
+#include "apps/assess/dose_counter.h"
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/needle_metrics.h"
 #include "apps/record/session_file.h"
+#include "apps/task_needle/needle_task.h"
 #include "apps/training/trial_words.h"
 #include "haptics/loop/tick.h"
 
@@ -52,9 +54,12 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
   trials_ = reader_->trials();
 }
 
-void eachNeedleTrial(
-    const record::SessionReader& reader, const Pose& X_DA,
-    const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
+namespace {
+
+/// Every trial and all its judged ticks; `tick` sees the others, too.
+void walkNeedle(const record::SessionReader& reader, const Pose& X_DA,
+                const record::TrialVisitor& besides,
+                const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
   assess::TrialSampler sampler(X_DA.inverse(), reader.info().tick_config.X_ET);
   NeedleSamples samples;
   record::walkTrials(
@@ -63,34 +68,67 @@ void eachNeedleTrial(
            [&](const record::RecordedTrial& trial) {
              samples.clear();
              sampler.begin(static_cast<std::uint32_t>(trial.header.trial));
+             if (besides.begin) besides.begin(trial);
            },
        .tick =
            [&](const haptics::FlightRecord& record) {
              assess::TrialSample sample;
              if (sampler.add(record, &sample)) samples.push_back(sample);
+             if (besides.tick) besides.tick(record);
            },
        .finish = [&](const record::RecordedTrial& trial) { visit(trial, samples); }});
 }
 
-assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& trial,
-                                                 const Samples& samples) const {
-  if (task_.goal) {
-    task_needle::GoalTrial goal(*task_.goal, task_.augmentations.subtaskNames(), task_.words);
-    for (const assess::TrialSample& sample : samples) goal.add(sample);
-    assess::TrialAssessment again;
-    again.trial = trial.header.trial;
-    again.outcome = training::outcomeNamed(trial.end.outcome);
-    goal.describe(&again);
-    again.metrics = assess::goalMetrics(again, samples, task_.rules);
-    return again;
-  }
-  if (!taught_path_)
-    throw Error("no expert path was recorded", "session",
-                "It was made to calibrate experts, not to be scored");
+}  // namespace
+
+void eachNeedleTrial(
+    const record::SessionReader& reader, const Pose& X_DA,
+    const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
+  walkNeedle(reader, X_DA, {}, visit);
+}
+
+assess::TrialAssessment RecordedSession::judged(const record::RecordedTrial& trial,
+                                                const Samples& samples) const {
   const assess::TrialFacts facts{trial.header.trial, training::roleNamed(trial.header.role),
                                  simulated_,         trial.header.force_feedback,
                                  trial.header.seed,  training::outcomeNamed(trial.end.outcome)};
-  return assess::assessTrial(facts, samples, patient_, *query_, *taught_path_, task_.rules);
+  if (!task_.goal && taught_path_)
+    return assess::assessTrial(facts, samples, patient_, *query_, *taught_path_, task_.rules);
+  if (!task_.goal) return task_needle::judgedWithoutPath(facts, nullptr, samples, task_.rules);
+  task_needle::GoalTrial goal(*task_.goal, task_.augmentations.subtaskNames(), task_.words);
+  for (const assess::TrialSample& sample : samples) goal.add(sample);
+  return task_needle::judgedWithoutPath(facts, &goal, samples, task_.rules);
+}
+
+assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& trial,
+                                                 const Samples& samples) const {
+  if (!task_.goal && !taught_path_)
+    throw Error("no expert path was recorded", "session",
+                "It was made to calibrate experts, not to be scored");
+  return judged(trial, samples);
+}
+
+std::vector<RecordedNeedle> recordedNeedles(const RecordedSession& session) {
+  const record::SessionInfo& info = session.reader().info();
+  const bool augment =
+      JsonFile::ofText(info.session_json, "the recorded session").flag("augment", false);
+  assess::TrialDoses doses(info.tick_config.augmentations,
+                           session.task().augmentations.subtaskNames());
+  std::vector<RecordedNeedle> trials;
+  walkNeedle(session.reader(), session.X_DA(),
+             {.begin =
+                  [&](const record::RecordedTrial& trial) {
+                    doses.begin(static_cast<std::uint32_t>(trial.header.trial));
+                  },
+              .tick = [&](const haptics::FlightRecord& record) { doses.add(record); },
+              .finish = {}},
+             [&](const record::RecordedTrial& trial, const NeedleSamples& samples) {
+               trials.push_back({trial, session.judged(trial, samples)});
+               assess::TrialAssessment& again = trials.back().again;
+               again.augmented = augment && again.role != training::Role::familiarisation;
+               again.doses = doses.doses();
+             });
+  return trials;
 }
 
 namespace {

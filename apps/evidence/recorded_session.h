@@ -50,6 +50,9 @@ class RecordedSession {
   /// The trial scored again, from the evidence alone: of a task with a goal of its own success,
   /// time and course. Throws Error when no expert path was recorded.
   assess::TrialAssessment rescore(const record::RecordedTrial& trial, const Samples& samples) const;
+  /// The same, of a session that was not to be scored as well.
+  assess::TrialAssessment judged(const record::RecordedTrial& trial, const Samples& samples) const;
+  const task_needle::TaskSettings& task() const { return task_; }
 
  private:
   std::unique_ptr<record::SessionReader> reader_;
@@ -62,6 +65,14 @@ class RecordedSession {
   std::string operator_, trainee_;
   std::vector<record::RecordedTrial> trials_;
 };
+
+/// A needle's trial as the session judged it, with what the parts of the task were given.
+struct RecordedNeedle {
+  record::RecordedTrial recorded;
+  assess::TrialAssessment again;
+};
+/// Every trial of a session, from the evidence alone, in one pass. Throws Error.
+std::vector<RecordedNeedle> recordedNeedles(const RecordedSession& session);
 
 /// Outcome of running every recorded tick again.
 struct ReplayCheck {

@@ -8,7 +8,9 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
+#include "apps/assess/dose_counter.h"
 #include "apps/record/session_file.h"
+#include "apps/station/task_sections.h"
 #include "apps/training/engine.h"
 #include "apps/training/trial_words.h"
 
@@ -54,46 +56,98 @@ Engine engineOf(const record::SessionReader& reader) {
   return training::engineNamed(name).value_or(Engine::needle);
 }
 
-void eachPalpation(const record::SessionReader& reader,
-                   const std::function<void(const record::RecordedTrial&,
-                                            task_palpation::PalpationListener&)>& visit) {
+namespace {
+
+using VisitPalpation =
+    std::function<void(const record::RecordedTrial&, task_palpation::PalpationListener&)>;
+
+void walkPalpation(const record::SessionReader& reader, const record::TrialVisitor& besides,
+                   const VisitPalpation& visit) {
   task_palpation::PalpationListener listener(reader.info().tick_config);
   record::walkTrials(
       reader, reader.trials(),
       {.begin =
            [&](const record::RecordedTrial& trial) {
              listener.begin(static_cast<std::uint32_t>(trial.header.trial));
+             if (besides.begin) besides.begin(trial);
            },
-       .tick = [&](const haptics::FlightRecord& record) { listener.add(record); },
+       .tick =
+           [&](const haptics::FlightRecord& record) {
+             listener.add(record);
+             if (besides.tick) besides.tick(record);
+           },
        .finish = [&](const record::RecordedTrial& trial) { visit(trial, listener); }});
 }
 
-std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
-  const task_palpation::Scoring scoring =
-      task_palpation::scoringOf(JsonFile::ofText(reader.info().task_json, "the recorded task"));
-  const bool simulated = fieldOf(reader.info().session_json, "simulated", false, "its session");
-  const std::vector<runtime::Event> events = reader.events();
-  std::vector<RecordedPalpation> trials;
-  eachPalpation(reader, [&](const record::RecordedTrial& trial,
-                            task_palpation::PalpationListener& listener) {
+/// What was said of the marks, after them.
+void giveGrades(const std::vector<runtime::Event>& grades,
+                task_palpation::PalpationListener& listener) {
+  for (const runtime::Event& grade : grades) {
+    const trial::Grade told = trial::gradeOf(grade.text);
+    if (grade.value >= 1 && grade.value <= static_cast<double>(listener.marks().size()))
+      listener.grade(told.diameter, told.hardness, told.mobility,
+                     static_cast<std::size_t>(grade.value));
+  }
+}
+
+/// What all trials of a palpation have in common.
+struct PalpationInWords {
+  task_palpation::Scoring scoring;
+  bool simulated = false, augmented = false;
+  std::vector<runtime::Event> events;
+  explicit PalpationInWords(const record::SessionReader& reader)
+      : scoring(task_palpation::scoringOf(
+            JsonFile::ofText(reader.info().task_json, "the recorded task"))),
+        simulated(fieldOf(reader.info().session_json, "simulated", false, "its session")),
+        augmented(fieldOf(reader.info().session_json, "augment", false, "its session")),
+        events(reader.events()) {}
+
+  assess::PalpationAssessment judged(const record::RecordedTrial& trial,
+                                     task_palpation::PalpationListener& listener) const {
     const runtime::TrialHeader& header = trial.header;
     const Said said = saidIn(events, header.trial);
-    for (const runtime::Event& grade : said.grades) {
-      const trial::Grade told = trial::gradeOf(grade.text);
-      if (grade.value >= 1 && grade.value <= static_cast<double>(listener.marks().size()))
-        listener.grade(told.diameter, told.hardness, told.mobility,
-                       static_cast<std::size_t>(grade.value));
-    }
+    giveGrades(said.grades, listener);
     const double guided = trial.ended && !trial.end.scores_json.empty()
                               ? fieldOf(trial.end.scores_json, "GUIDED", 0.0, "a trial's score")
                               : 0;
-    const assess::PalpationFacts facts{
-        header.trial, training::roleNamed(header.role),          simulated, header.force_feedback,
-        header.seed,  training::outcomeNamed(trial.end.outcome), guided};
-    trials.push_back(
-        {trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
-                                        listener.samples(), listener.marks())});
-  });
+    const assess::PalpationFacts facts{header.trial,
+                                       training::roleNamed(header.role),
+                                       simulated,
+                                       header.force_feedback,
+                                       header.seed,
+                                       training::outcomeNamed(trial.end.outcome),
+                                       guided,
+                                       augmented};
+    return assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
+                                   listener.samples(), listener.marks());
+  }
+};
+
+}  // namespace
+
+void eachPalpation(const record::SessionReader& reader, const VisitPalpation& visit) {
+  walkPalpation(reader, {}, visit);
+}
+
+std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
+  const PalpationInWords session(reader);
+  assess::TrialDoses doses(
+      reader.info().tick_config.augmentations,
+      station::readPlan(JsonFile::ofText(reader.info().task_json, "the recorded task"))
+          .subtaskNames());
+  std::vector<RecordedPalpation> trials;
+  walkPalpation(
+      reader,
+      {.begin =
+           [&](const record::RecordedTrial& trial) {
+             doses.begin(static_cast<std::uint32_t>(trial.header.trial));
+           },
+       .tick = [&](const haptics::FlightRecord& record) { doses.add(record); },
+       .finish = {}},
+      [&](const record::RecordedTrial& trial, task_palpation::PalpationListener& listener) {
+        trials.push_back({trial, session.judged(trial, listener)});
+        trials.back().assessment.doses = doses.doses();
+      });
   return trials;
 }
 

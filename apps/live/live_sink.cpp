@@ -101,6 +101,7 @@ void LiveSink::tick(const haptics::FlightRecord& record) {
 
 void LiveSink::event(const runtime::Event& event) {
   evidence_.event(event);
+  if (event.is(runtime::EventKind::picture)) return;  // whoever looks on sees the moment itself
   log_.add(entryOf({{"kind", "event"},
                     {"t_s", secondsOf(event.t_ns)},
                     {"trial", event.trial},

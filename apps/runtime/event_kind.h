@@ -31,7 +31,8 @@ enum class EventKind : std::uint8_t {
   let_go,      ///< the handle of a search
   thing,       ///< that is held now
   answer,      ///< which thing has more, 1 or 2
-  computer     ///< a part of it does not answer, or does again
+  computer,    ///< a part of it does not answer, or does again
+  picture      ///< is kept of this moment: its file and caption; trial time, s
 };
 
 /// "ready", ..., "case", ...: in records, logs and on the wire.
@@ -39,7 +40,7 @@ inline const std::string& nameOf(EventKind kind) {
   static const EnumNames<EventKind> kEventKinds{
       "ready",   "start", "pause", "resume", "safety",   "emergency_stop", "rearm",   "device",
       "camera",  "note",  "case",  "phase",  "puncture", "withdrawn",      "wall",    "vein",
-      "touched", "mark",  "grade", "let_go", "thing",    "answer",         "computer"};
+      "touched", "mark",  "grade", "let_go", "thing",    "answer",         "computer", "picture"};
   return kEventKinds.of(kind);
 }
 

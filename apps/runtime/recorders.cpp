@@ -17,12 +17,14 @@ std::int64_t RecorderActivity::step(std::int64_t now_ns) {
   return now_ns + period_ns_;
 }
 
+/// A trial's end comes last: where the evidence has it, it has the trial's ticks.
 void RecorderActivity::drain() {
+  std::vector<TrialEnd> ends;
   EvidenceMessage message;
   while (bus_.task_to_recorder.pop(&message)) {
     if (const auto* event = std::get_if<Event>(&message)) sink_.event(*event);
     if (const auto* header = std::get_if<TrialHeader>(&message)) sink_.beginTrial(*header);
-    if (const auto* end = std::get_if<TrialEnd>(&message)) sink_.endTrial(*end);
+    if (const auto* end = std::get_if<TrialEnd>(&message)) ends.push_back(*end);
     bus_.recorder_to_link.push(message);
   }
   LocalGeometry geometry;
@@ -31,6 +33,7 @@ void RecorderActivity::drain() {
   while (bus_.keyframes_to_recorder.pop(&keyframe)) sink_.keyframe(keyframe.tick, keyframe.state);
   haptics::FlightRecord record;
   while (bus_.haptic_to_recorder.pop(&record)) sink_.tick(record);
+  for (const TrialEnd& end : ends) sink_.endTrial(end);
   sink_.commit();
 }
 

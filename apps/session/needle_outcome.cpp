@@ -21,19 +21,20 @@ namespace palpa::session {
 namespace {
 
 /// `forms`: of an assessment, whose trials are judged; null: practice.
-std::vector<report::TrialPage> pages(const SessionResult& result,
+std::vector<report::TrialPage> pages(const std::vector<task_needle::CompletedTrial>& trials,
+                                     const std::vector<trial::SavedPicture>& pictures,
                                      const evidence::RatingForms* forms) {
   std::vector<report::TrialPage> all;
-  for (const auto& trial : result.trials) {
+  for (const auto& trial : trials) {
     report::TrialPage page{trial.assessment, {}, {}};
-    for (const auto& p : result.pictures)
+    for (const auto& p : pictures)
       if (p.moment.trial == trial.assessment.trial)
         page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
     if (forms && training::inAssessment(trial.assessment.role) && trial.assessment.by_path) {
       page.verdict = evidence::verdictOf(trial.assessment, *forms, {},
                                          evidence::standardOf(forms->checklist, 0));
       page.certification =
-          competence::whatCannotBeCertified(static_cast<int>(result.trials.size()));
+          competence::whatCannotBeCertified(static_cast<int>(trials.size()));
     }
     all.push_back(std::move(page));
   }
@@ -160,33 +161,56 @@ void sayResult(const SessionResult& result) {
 
 }  // namespace
 
-void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
-                  const SessionResult& result, const std::filesystem::path& folder) {
+ReportHead headOf(const SessionOptions& options, const NeedleWorld& world) {
+  ReportHead head;
+  head.title = world.task.title +
+               (world.task.block ? std::string()
+                                 : std::string(", ") + anatomy::name(world.patient.side) + " side");
+  head.trainee = whoPerformed(options);
+  head.user_id = options.trainee;
+  head.simulated = isSimulated(options, world);
+  head.assessed = options.assess;
+  head.taxonomy = taxonomyFacts(world.task.taxonomy);
+  head.station = stationFacts(options, world);
+  head.parts = meaningsOf(world.task.augmentations);
+  return head;
+}
+
+void writeNeedleResults(const ReportHead& head,
+                        const std::vector<task_needle::CompletedTrial>& trials,
+                        const ReportTail& tail, const Pose& X_DA,
+                        const std::filesystem::path& evidence) {
   std::vector<assess::TrialAssessment> scored;
-  for (const auto& trial : result.trials)
+  for (const auto& trial : trials)
     if (training::countsAsScored(trial.assessment.role) &&
         trial.assessment.outcome != training::Outcome::voided)
       scored.push_back(trial.assessment);
-  report::writeTrialsCsv(options.trainee, scored, folder / "trials.csv");
+  const std::filesystem::path folder = evidence.parent_path();
+  report::writeTrialsCsv(head.user_id, scored, folder / "trials.csv");
   report::SessionReport page;
-  page.title = world.task.title +
-               (world.task.block ? std::string()
-                                 : std::string(", ") + anatomy::name(world.patient.side) + " side");
-  page.trainee = whoPerformed(options);
-  page.simulated = isSimulated(options, world);
+  page.title = head.title;
+  page.trainee = head.trainee;
+  page.simulated = head.simulated;
   const std::optional<evidence::RatingForms> forms =
-      options.assess ? std::optional(evidence::readForms("", "")) : std::nullopt;
-  page.trials = pages(result, forms ? &*forms : nullptr);
-  page.courses = coursesIn(folder / "session.palpa", world.X_DA);
-  page.taxonomy = taxonomyFacts(world.task.taxonomy);
-  page.station = stationFacts(options, world);
-  page.registration = registrationFacts(result, world);
-  page.notes = runNotes(result);
-  page.parts = partsOf(world.task.augmentations, result.trials, [](const auto& t) {
+      head.assessed ? std::optional(evidence::readForms("", "")) : std::nullopt;
+  page.trials = pages(trials, tail.pictures, forms ? &*forms : nullptr);
+  page.courses = coursesIn(evidence, X_DA);
+  page.taxonomy = head.taxonomy;
+  page.station = head.station;
+  page.registration = tail.registration;
+  page.notes = tail.notes;
+  page.parts = partsOf(head.parts, trials, [](const auto& t) {
     return std::tuple(t.assessment.doses, t.assessment.augmented,
                       1e-3 * t.assessment.values.time_ms);
   });
   report::writeReport(page, folder / "report.html");
+}
+
+void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
+                  const SessionResult& result, const std::filesystem::path& folder) {
+  writeNeedleResults(headOf(options, world), result.trials,
+                     {result.pictures, runNotes(result), registrationFacts(result, world)},
+                     world.X_DA, folder / "session.palpa");
   if (!result.registration.empty())
     writeRegistration(result.registration, folder / "registration.csv");
 

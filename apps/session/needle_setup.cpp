@@ -96,7 +96,8 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
                                    {"assessed", options.assess},
                                    {"X_DA", json(world.X_DA)},
                                    {"X_WA", json(world.X_WA)},
-                                   {"X_WD", json(world.station.X_WD)}},
+                                   {"X_WD", json(world.station.X_WD)},
+                                   {"report", jsonOf(headOf(options, world))}},
                                   options);
   info.station_json = world.station.file.json().dump();
   info.task_json = world.task.source;

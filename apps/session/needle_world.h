@@ -9,6 +9,7 @@
 #include "anatomy/query/surface_query.h"
 #include "apps/record/session_file.h"
 #include "apps/session/session_devices.h"
+#include "apps/session/session_facts.h"
 #include "apps/session/session_options.h"
 #include "apps/station/material_files.h"
 #include "apps/station/station_file.h"
@@ -59,6 +60,9 @@ bool isSimulated(const SessionOptions& options, const NeedleWorld& world);
 /// What the loop runs with: materials, safety, coupling, rate; what the device and whoever holds it
 /// can do.
 haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld& world);
+
+/// What its report says before the first trial.
+ReportHead headOf(const SessionOptions& options, const NeedleWorld& world);
 
 /// What the evidence says of the session.
 record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world);

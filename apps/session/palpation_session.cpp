@@ -147,7 +147,8 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
                                    {"see_through", options.see_through},
                                    {"augment", options.augment},
                                    {"virtual_time", options.fast},
-                                   {"assessed", options.assess}},
+                                   {"assessed", options.assess},
+                                   {"report", jsonOf(head(options))}},
                                   options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
@@ -218,11 +219,14 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
 
 namespace {
 
-std::vector<report::PalpationPage> pagesOf(const PalpationWorld& world, const PalpationRun& run) {
+std::vector<report::PalpationPage> pagesOf(
+    const assess::PalpationRules& rules,
+    const std::vector<task_palpation::CompletedPalpation>& trials,
+    const std::vector<trial::SavedPicture>& pictures) {
   std::vector<report::PalpationPage> pages;
-  for (const auto& trial : run.trials) {
-    report::PalpationPage page{trial.assessment, {}, world.task.scoring.rules, {}};
-    for (const trial::SavedPicture& p : run.pictures)
+  for (const auto& trial : trials) {
+    report::PalpationPage page{trial.assessment, {}, rules, {}};
+    for (const trial::SavedPicture& p : pictures)
       if (p.moment.trial == trial.assessment.facts.trial)
         page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
     pages.push_back(std::move(page));
@@ -254,32 +258,54 @@ std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
 
 }  // namespace
 
-void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world,
-                           const PalpationRun& run, const std::filesystem::path& folder) {
+ReportHead PalpationWorld::head(const SessionOptions& options) const {
+  ReportHead head;
+  head.title = task.title;
+  head.trainee = whoPerformed(options);
+  head.user_id = options.trainee;
+  head.simulated = simulated(options);
+  head.assessed = options.assess;
+  head.force_note = forceNote();
+  head.taxonomy = taxonomyFacts(task.taxonomy);
+  head.station = stationFactsOf(options, station);
+  head.station.push_back(surfaceFact(task.library));
+  for (report::Fact& fact : lumpFacts(task.library)) head.station.push_back(std::move(fact));
+  head.parts = meaningsOf(task.augmentations);
+  return head;
+}
+
+void writePalpationResults(const ReportHead& head,
+                           const std::vector<task_palpation::CompletedPalpation>& trials,
+                           const task_palpation::Scoring& scoring, const ReportTail& tail,
+                           const std::filesystem::path& evidence) {
   std::vector<assess::PalpationAssessment> judged;
-  for (const auto& trial : run.trials)
+  for (const auto& trial : trials)
     if (trial.assessment.facts.outcome != training::Outcome::voided &&
         training::countsAsScored(trial.assessment.facts.role))
       judged.push_back(trial.assessment);
-  report::writePalpationCsv(options.trainee, judged, folder / "trials.csv");
+  const std::filesystem::path folder = evidence.parent_path();
+  report::writePalpationCsv(head.user_id, judged, folder / "trials.csv");
   report::PalpationReport page;
-  page.title = world.task.title;
-  page.trainee = whoPerformed(options);
-  page.simulated = world.simulated(options);
-  page.force_note = world.forceNote();
-  page.trials = pagesOf(world, run);
-  page.courses = touchesIn(folder / "session.palpa");
-  page.standard = world.task.scoring.standard;
-  page.taxonomy = taxonomyFacts(world.task.taxonomy);
-  page.station = stationFactsOf(options, world.station);
-  page.station.push_back(surfaceFact(world.task.library));
-  for (report::Fact& fact : lumpFacts(world.task.library)) page.station.push_back(std::move(fact));
-  page.notes = runNotes(run);
-  page.parts = partsOf(world.task.augmentations, run.trials, [](const auto& t) {
+  page.title = head.title;
+  page.trainee = head.trainee;
+  page.simulated = head.simulated;
+  page.force_note = head.force_note;
+  page.trials = pagesOf(scoring.rules, trials, tail.pictures);
+  page.courses = touchesIn(evidence);
+  page.standard = scoring.standard;
+  page.taxonomy = head.taxonomy;
+  page.station = head.station;
+  page.notes = tail.notes;
+  page.parts = partsOf(head.parts, trials, [](const auto& t) {
     return std::tuple(t.assessment.doses, t.assessment.facts.augmented, t.assessment.score.seconds);
   });
   report::writePalpationReport(page, folder / "report.html");
+}
 
+void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world,
+                           const PalpationRun& run, const std::filesystem::path& folder) {
+  writePalpationResults(world.head(options), run.trials, world.task.scoring,
+                        {run.pictures, runNotes(run)}, folder / "session.palpa");
   for (const auto& trial : run.trials) {
     const assess::PalpationAssessment& a = trial.assessment;
     std::printf("Trial %d (%s%s): %s\n", a.facts.trial, training::nameOf(a.facts.role).c_str(),

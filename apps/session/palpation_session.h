@@ -5,6 +5,7 @@
 #include "anatomy/parametric/phantoms.h"
 #include "apps/record/session_file.h"
 #include "apps/session/session_devices.h"
+#include "apps/session/session_facts.h"
 #include "apps/session/session_frame.h"
 #include "apps/session/session_options.h"
 #include "apps/station/station_file.h"
@@ -34,6 +35,7 @@ struct PalpationWorld {
   /// sees what is felt there.
   SessionDevices::Hands hands(const SessionOptions& options) const;
   record::SessionInfo info(const SessionOptions& options) const;
+  ReportHead head(const SessionOptions& options) const;
   /// What deep is here, and on a patient where that is known; empty: the same.
   std::string forceNote() const;
 };
@@ -46,7 +48,14 @@ struct PalpationRun : SessionRun {
 PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& world,
                           const std::filesystem::path& folder);
 
-/// trials.csv and report.html; the last lines on standard output say what was written.
+/// trials.csv and report.html beside the evidence, from trials as the session judged them or as they
+/// were judged again.
+void writePalpationResults(const ReportHead& head,
+                           const std::vector<task_palpation::CompletedPalpation>& trials,
+                           const task_palpation::Scoring& scoring, const ReportTail& tail,
+                           const std::filesystem::path& evidence);
+
+/// The same of a session that has just ended; the last lines on standard output say what was written.
 void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world,
                            const PalpationRun& run, const std::filesystem::path& folder);
 

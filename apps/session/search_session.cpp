@@ -139,7 +139,8 @@ record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
                                    {"trainee", options.trainee},
                                    {"force_feedback", options.force_feedback},
                                    {"virtual_time", options.fast},
-                                   {"assessed", options.assess}},
+                                   {"assessed", options.assess},
+                                   {"report", jsonOf(head(options))}},
                                   options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
@@ -204,41 +205,63 @@ std::vector<report::Fact> pullFacts(const SearchWorld& world) {
 
 }  // namespace
 
-void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
-                        const SearchRun& run, const std::filesystem::path& folder) {
+ReportHead SearchWorld::head(const SessionOptions& options) const {
+  ReportHead head;
+  head.title = task.title;
+  head.trainee = whoPerformed(options);
+  head.user_id = options.trainee;
+  head.simulated = simulated(options);
+  head.assessed = options.assess;
+  head.unit_note = format("1 U = %.3g mm in the hand: the floor is %.1f mm wide",
+                          1e3 * rendering.unit, 1e3 * rendering.unit * task.spec.side);
+  head.taxonomy = taxonomyFacts(task.taxonomy);
+  head.station = stationFactsOf(options, station);
+  head.station.push_back({"Stiffness of the floor",
+                          format("%.0f N/m, degraded %.0f N/m", rendering.real.stiffness,
+                                 rendering.degraded.stiffness),
+                          ""});
+  for (report::Fact& fact : pullFacts(*this)) head.station.push_back(std::move(fact));
+  head.parts = meaningsOf(task.augmentations);
+  return head;
+}
+
+void writeSearchResults(const ReportHead& head,
+                        const std::vector<task_search::CompletedSearch>& trials,
+                        const ReportTail& tail, const std::filesystem::path& evidence) {
   report::SearchReport page;
   std::vector<assess::SearchTrial> written;
-  for (const task_search::CompletedSearch& trial : run.trials) {
+  for (const task_search::CompletedSearch& trial : trials) {
     page.trials.push_back(trial.trial);
     if (counts(trial.trial)) written.push_back(trial.trial);
   }
-  report::writeSearchCsv(options.trainee, written, folder / "trials.csv");
-  page.title = world.task.title;
-  page.trainee = whoPerformed(options);
-  page.simulated = world.simulated(options);
-  for (const station::NamedPart& part : world.task.augmentations.subtasks)
-    page.subtasks.push_back({part.name, part.means});
-  for (const trial::SavedPicture& p : run.pictures)
+  const std::filesystem::path folder = evidence.parent_path();
+  report::writeSearchCsv(head.user_id, written, folder / "trials.csv");
+  page.title = head.title;
+  page.trainee = head.trainee;
+  page.simulated = head.simulated;
+  page.subtasks = head.parts;
+  for (const trial::SavedPicture& p : tail.pictures)
     page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
-  page.taxonomy = taxonomyFacts(world.task.taxonomy);
-  page.station = stationFactsOf(options, world.station);
-  page.station.push_back({"Stiffness of the floor",
-                          format("%.0f N/m, degraded %.0f N/m", world.rendering.real.stiffness,
-                                 world.rendering.degraded.stiffness),
-                          ""});
-  for (report::Fact& fact : pullFacts(world)) page.station.push_back(std::move(fact));
-  page.notes = runNotes(run);
-  page.unit_note =
-      format("1 U = %.3g mm in the hand: the floor is %.1f mm wide", 1e3 * world.rendering.unit,
-             1e3 * world.rendering.unit * world.task.spec.side);
+  page.taxonomy = head.taxonomy;
+  page.station = head.station;
+  page.notes = tail.notes;
+  page.unit_note = head.unit_note;
   report::writeSearchReport(page, folder / "report.html");
+}
 
-  const char* simulated = page.simulated ? ", simulated" : "";
+void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
+                        const SearchRun& run, const std::filesystem::path& folder) {
+  writeSearchResults(world.head(options), run.trials, {run.pictures, runNotes(run)},
+                     folder / "session.palpa");
+
+  const char* simulated = world.simulated(options) ? ", simulated" : "";
   for (const task_search::CompletedSearch& trial : run.trials)
     std::printf("Episode %d (%s, %s%s): %s\n", trial.trial.trial, name(trial.trial.mode),
                 training::nameOf(trial.trial.role).c_str(), simulated,
                 trial.reason.empty() ? summaryOf(trial.trial).c_str() : trial.reason.c_str());
-  for (const assess::SearchTally& tally : assess::talliesOf(page.trials))
+  std::vector<assess::SearchTrial> trials;
+  for (const task_search::CompletedSearch& trial : run.trials) trials.push_back(trial.trial);
+  for (const assess::SearchTally& tally : assess::talliesOf(trials))
     std::printf("%s%s%s: found in %d of %d episodes\n", tally.block.c_str(),
                 tally.block.empty() ? "" : ", ", name(tally.mode), tally.found, tally.episodes);
   std::printf("Written to %s:\n", folder.string().c_str());

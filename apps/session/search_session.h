@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "apps/session/session_facts.h"
 #include "apps/session/session_frame.h"
 #include "apps/task_search/search_task.h"
 
@@ -28,6 +29,7 @@ struct SearchWorld {
   double magnification() const { return task.shown_per_U / rendering.unit; }
   haptics::TickConfig tickConfig(const SessionOptions& options) const;
   SessionDevices::Hands hands(const SessionOptions& options) const;
+  ReportHead head(const SessionOptions& options) const;
   record::SessionInfo info(const SessionOptions& options) const;
 };
 
@@ -39,7 +41,13 @@ struct SearchRun : SessionRun {
 SearchRun runSearch(const SessionOptions& options, const SearchWorld& world,
                     const std::filesystem::path& folder);
 
-/// trials.csv and report.html; the last lines on standard output say what was written.
+/// trials.csv and report.html beside the evidence, from episodes as the session judged them or as
+/// they were judged again.
+void writeSearchResults(const ReportHead& head,
+                        const std::vector<task_search::CompletedSearch>& trials,
+                        const ReportTail& tail, const std::filesystem::path& evidence);
+
+/// The same of a session that has just ended; the last lines on standard output say what was written.
 void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
                         const SearchRun& run, const std::filesystem::path& folder);
 

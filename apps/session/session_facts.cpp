@@ -3,8 +3,11 @@
 #include <cstdarg>
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "anatomy/base/counted.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "apps/report/page/style.h"
 
 namespace palpa::session {
@@ -103,6 +106,86 @@ std::vector<report::Fact> runNotes(const SessionRun& result) {
                      format("%llu", static_cast<unsigned long long>(result.dropped)),
                      "the computer could not keep up: the replay is not exact there"});
   return facts;
+}
+
+report::SubtaskMeanings meaningsOf(const station::NamedPlan& plan) {
+  report::SubtaskMeanings meanings;
+  for (const station::NamedPart& part : plan.subtasks) meanings.emplace_back(part.name, part.means);
+  return meanings;
+}
+
+namespace {
+
+using nlohmann::json;
+
+json jsonOf(const std::vector<report::Fact>& facts) {
+  json all = json::array();
+  for (const report::Fact& fact : facts) all.push_back({fact.name, fact.value, fact.remark});
+  return all;
+}
+
+std::vector<report::Fact> factsIn(const json& list) {
+  std::vector<report::Fact> facts;
+  for (const json& fact : list) facts.push_back({fact.at(0), fact.at(1), fact.at(2)});
+  return facts;
+}
+
+/// What evidence without a "report" tells of its session.
+void headOfOld(const record::SessionInfo& info, const json& session, ReportHead* head) {
+  const json task = parseJson(info.task_json), station = parseJson(info.station_json);
+  const std::string who = session.value("operator", "");
+  head->title = task.value("title", info.command);
+  head->trainee = who == "person" ? head->user_id
+                  : who == "recorded" ? "recorded hand"
+                                      : "simulated " + who;
+  head->station = {{"Station", station.value("title", ""), station.value("id", "")},
+                   {"Software", info.software, ""},
+                   {"Parts of the task, settings of the station", "not told",
+                    "the evidence was made by a version that did not record them for the report"}};
+}
+
+void headOfNew(const json& report, ReportHead* head) {
+  head->title = report.at("title");
+  head->trainee = report.at("trainee");
+  head->force_note = report.at("force_note");
+  head->unit_note = report.at("unit_note");
+  head->too_hard_N = report.at("too_hard_N");
+  head->taxonomy = factsIn(report.at("taxonomy"));
+  head->station = factsIn(report.at("station"));
+  for (const json& part : report.at("parts")) head->parts.emplace_back(part.at(0), part.at(1));
+}
+
+}  // namespace
+
+json jsonOf(const ReportHead& head) {
+  json parts = json::array();
+  for (const auto& [name, means] : head.parts) parts.push_back({name, means});
+  return {{"title", head.title},
+          {"trainee", head.trainee},
+          {"force_note", head.force_note},
+          {"unit_note", head.unit_note},
+          {"too_hard_N", head.too_hard_N},
+          {"taxonomy", jsonOf(head.taxonomy)},
+          {"station", jsonOf(head.station)},
+          {"parts", parts}};
+}
+
+ReportHead headIn(const record::SessionInfo& info, const std::string& file) {
+  ReportHead head;
+  try {
+    const json session = parseJson(info.session_json);
+    head.user_id = session.value("trainee", "");
+    head.simulated = session.value("simulated", false);
+    head.assessed = session.value("assessed", false);
+    if (session.contains("report"))
+      headOfNew(session["report"], &head);
+    else
+      headOfOld(info, session, &head);
+  } catch (const json::exception& e) {
+    throw Error("the session's description is damaged (" + whyNoJson(info.session_json, e) + ")",
+                file, "Restore the file from a backup");
+  }
+  return head;
 }
 
 using runtime::EventKind;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "apps/record/session_file.h"
 #include "apps/report/needle/session_report.h"
 #include "apps/runtime/flight_sink.h"
 #include "apps/session/session_frame.h"
@@ -27,12 +29,40 @@ report::Fact surfaceFact(const station::LumpLibrary& library);
 /// Lateness, trips with their causes, what drivers and camera had to say, records lost.
 std::vector<report::Fact> runNotes(const SessionRun& run);
 
+/// What a report says that is known before the first trial. It stands in the evidence, so that the
+/// report can be made without the program that held the session.
+struct ReportHead {
+  std::string title;
+  std::string trainee;                ///< who performed, in words
+  std::string user_id;                ///< the same in trials.csv: the pseudonym
+  bool simulated = false;             ///< operator or bench are
+  bool assessed = false;              ///< in an assessment
+  std::string force_note, unit_note;  ///< empty: none
+  double too_hard_N = 0;              ///< of a comparison
+  std::vector<report::Fact> taxonomy, station;
+  report::SubtaskMeanings parts = {};  ///< of the task
+};
+/// What of it the rest of the evidence does not tell, for the session's text under "report".
+nlohmann::json jsonOf(const ReportHead& head);
+/// Read again. Of evidence that was made before it had a "report": what there is. Throws Error for
+/// a text that is damaged.
+ReportHead headIn(const record::SessionInfo& info, const std::string& file);
+
+/// What a report says besides trials and head, when the session is over.
+struct ReportTail {
+  std::vector<trial::SavedPicture> pictures;
+  std::vector<report::Fact> notes, registration = {};
+};
+
+/// Of the parts of a task what they mean.
+report::SubtaskMeanings meaningsOf(const station::NamedPlan& plan);
+
 /// The parts of a task for its report.
 template <typename Trials, typename Of>
-report::SubtaskSection partsOf(const station::NamedPlan& plan, const Trials& trials, Of of) {
+report::SubtaskSection partsOf(const report::SubtaskMeanings& meanings, const Trials& trials,
+                               Of of) {
   report::SubtaskSection section;
-  for (const station::NamedPart& part : plan.subtasks)
-    section.meanings.emplace_back(part.name, part.means);
+  section.meanings = meanings;
   for (const auto& trial : trials) {
     const auto [doses, augmented, seconds] = of(trial);
     section.trials.push_back(doses);

@@ -111,7 +111,8 @@ std::string sessionText(nlohmann::json session, const SessionOptions& options) {
                         {"block", s.block},
                         {"step", s.step},
                         {"protocol_sha256", s.protocol_sha256}};
-  return session.dump();
+  // the name of a file may be no text
+  return session.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void settleOperator(SessionOptions& o, const station::Station& station) {

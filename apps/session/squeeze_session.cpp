@@ -123,7 +123,8 @@ record::SessionInfo SqueezeWorld::info(const SessionOptions& options) const {
                                    {"trainee", options.trainee},
                                    {"force_feedback", options.force_feedback},
                                    {"virtual_time", options.fast},
-                                   {"assessed", options.assess}},
+                                   {"assessed", options.assess},
+                                   {"report", jsonOf(head(options))}},
                                   options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
@@ -161,28 +162,49 @@ SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
   return run;
 }
 
-void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
-                         const SqueezeRun& run, const std::filesystem::path& folder) {
+ReportHead SqueezeWorld::head(const SessionOptions& options) const {
+  ReportHead head;
+  head.title = task.title;
+  head.trainee = whoPerformed(options);
+  head.user_id = options.trainee;
+  head.simulated = true;
+  head.assessed = options.assess;
+  head.too_hard_N = task.too_hard;
+  head.taxonomy = taxonomyFacts(task.taxonomy);
+  head.station = stationFactsOf(options, station);
+  head.station.push_back(surfaceFact(task.library));
+  return head;
+}
+
+void writeSqueezeResults(const ReportHead& head,
+                         const std::vector<task_squeeze::CompletedSqueeze>& trials,
+                         const ReportTail& tail, const std::filesystem::path& evidence) {
   report::SqueezeReport page;
   std::vector<assess::SqueezeTrial> scored;
-  for (const task_squeeze::CompletedSqueeze& trial : run.trials) {
+  for (const task_squeeze::CompletedSqueeze& trial : trials) {
     page.trials.push_back(trial.trial);
     if (training::countsAsScored(trial.trial.role) &&
         trial.trial.outcome != training::Outcome::voided)
       scored.push_back(trial.trial);
   }
-  report::writeSqueezeCsv(options.trainee, scored, folder / "trials.csv");
-  page.title = world.task.title;
-  page.trainee = whoPerformed(options);
-  page.simulated = true;
-  page.too_hard_N = world.task.too_hard;
-  for (const trial::SavedPicture& p : run.pictures)
+  const std::filesystem::path folder = evidence.parent_path();
+  report::writeSqueezeCsv(head.user_id, scored, folder / "trials.csv");
+  page.title = head.title;
+  page.trainee = head.trainee;
+  page.simulated = head.simulated;
+  page.too_hard_N = head.too_hard_N;
+  for (const trial::SavedPicture& p : tail.pictures)
     page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
-  page.taxonomy = taxonomyFacts(world.task.taxonomy);
-  page.station = stationFactsOf(options, world.station);
-  page.station.push_back(surfaceFact(world.task.library));
-  page.notes = runNotes(run);
+  page.taxonomy = head.taxonomy;
+  page.station = head.station;
+  page.notes = tail.notes;
   report::writeSqueezeReport(page, folder / "report.html");
+}
+
+void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
+                         const SqueezeRun& run, const std::filesystem::path& folder) {
+  writeSqueezeResults(world.head(options), run.trials, {run.pictures, runNotes(run)},
+                      folder / "session.palpa");
 
   for (const task_squeeze::CompletedSqueeze& trial : run.trials)
     std::printf("Trial %d (%s, simulated): %s\n", trial.trial.trial,

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "apps/session/session_facts.h"
 #include "apps/session/session_frame.h"
 #include "apps/task_squeeze/squeeze_task.h"
 
@@ -22,6 +23,7 @@ struct SqueezeWorld {
 
   haptics::PairConfig pairConfig(const SessionOptions& options) const;
   SessionDevices::Hands hands(const SessionOptions& options) const;
+  ReportHead head(const SessionOptions& options) const;
   record::SessionInfo info(const SessionOptions& options) const;
 };
 
@@ -33,7 +35,13 @@ struct SqueezeRun : SessionRun {
 SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
                       const std::filesystem::path& folder);
 
-/// trials.csv and report.html; the last lines on standard output say what was written.
+/// trials.csv and report.html beside the evidence, from trials as the session judged them or as they
+/// were judged again.
+void writeSqueezeResults(const ReportHead& head,
+                         const std::vector<task_squeeze::CompletedSqueeze>& trials,
+                         const ReportTail& tail, const std::filesystem::path& evidence);
+
+/// The same of a session that has just ended; the last lines on standard output say what was written.
 void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
                          const SqueezeRun& run, const std::filesystem::path& folder);
 

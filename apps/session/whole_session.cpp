@@ -2,6 +2,7 @@
 
 #include "anatomy/base/error.h"
 #include "apps/os/signals.h"
+#include "apps/session/finish_session.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/palpation_session.h"
@@ -15,12 +16,14 @@ using training::Engine;
 
 SessionLeft holdNeedleSession(SessionOptions options) {
   settle(options);
+  if (!options.quiet) offerUnfinished();
   NeedleWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
   OutputFolder output(options.out, options.command);
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();
+  const BegunSession begun(folder);
   if (options.who == OperatorKind::person && options.demonstration)
     showDemonstration(options, world, folder);
   const SessionResult result = runNeedleSession(options, world, folder);
@@ -32,6 +35,7 @@ SessionLeft holdNeedleSession(SessionOptions options) {
 
 SessionLeft holdPalpation(SessionOptions options) {
   settle(options);
+  if (!options.quiet) offerUnfinished();
   if (options.headset)
     throw UsageError("does not show palpation yet", "--display openxr",
                      "Choose window or offscreen");
@@ -41,6 +45,7 @@ SessionLeft holdPalpation(SessionOptions options) {
   OutputFolder output(options.out, options.command);
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();
+  const BegunSession begun(folder);
   const PalpationRun run = runPalpation(options, world, folder);
   writePalpationOutcome(options, world, run, folder);
   output.keep();
@@ -50,6 +55,7 @@ SessionLeft holdPalpation(SessionOptions options) {
 
 SessionLeft holdSqueeze(SessionOptions options) {
   settle(options);
+  if (!options.quiet) offerUnfinished();
   if (!isSimulated(options.who))
     throw UsageError("cannot hold something with one device", "--operator",
                      "So far, two devices can only be simulated: --operator expert or novice");
@@ -61,6 +67,7 @@ SessionLeft holdSqueeze(SessionOptions options) {
   OutputFolder output(options.out, options.command);
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();
+  const BegunSession begun(folder);
   const SqueezeRun run = runSqueeze(options, world, folder);
   writeSqueezeOutcome(options, world, run, folder);
   output.keep();
@@ -70,6 +77,7 @@ SessionLeft holdSqueeze(SessionOptions options) {
 
 SessionLeft holdSearch(SessionOptions options) {
   settle(options);
+  if (!options.quiet) offerUnfinished();
   if (options.headset)
     throw UsageError("does not show a search yet", "--display openxr",
                      "Choose window or offscreen");
@@ -83,6 +91,7 @@ SessionLeft holdSearch(SessionOptions options) {
   OutputFolder output(options.out, options.command);
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();
+  const BegunSession begun(folder);
   const SearchRun run = runSearch(options, world, folder);
   writeSearchOutcome(options, world, run, folder);
   output.keep();

@@ -79,6 +79,23 @@ runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
           plan().force_feedback, plan().puncture_force_N};
 }
 
+assess::TrialAssessment judgedWithoutPath(const assess::TrialFacts& facts, const GoalTrial* goal,
+                                          const std::vector<assess::TrialSample>& samples,
+                                          const assess::ScoringRules& rules) {
+  assess::TrialAssessment judged;
+  judged.trial = facts.trial;
+  judged.rules = rules.version;
+  judged.role = facts.role;
+  judged.outcome = facts.outcome;
+  judged.seed = facts.seed;
+  judged.simulated = facts.simulated;
+  judged.force_feedback = facts.force_feedback;
+  judged.values.success = facts.outcome == Outcome::success;
+  if (goal) goal->describe(&judged);
+  judged.metrics = assess::goalMetrics(judged, samples, rules);
+  return judged;
+}
+
 trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::string& reason) {
   CompletedTrial trial;
   trial.reason = reason;
@@ -88,17 +105,8 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
     trial.assessment = assess::assessTrial(facts, samples_, setup_.patient, setup_.query,
                                            *setup_.taught_path, setup_.settings.rules);
   } else {
-    trial.assessment.trial = status().trial;
-    trial.assessment.rules = setup_.settings.rules.version;
-    trial.assessment.role = plan().role;
-    trial.assessment.outcome = outcome;
-    trial.assessment.seed = plan().seed;
-    trial.assessment.simulated = setup_.simulated;
-    trial.assessment.force_feedback = plan().force_feedback;
-    trial.assessment.values.success = outcome == Outcome::success;
-    if (setup_.settings.goal) goal_.describe(&trial.assessment);
-    trial.assessment.metrics =
-        assess::goalMetrics(trial.assessment, samples_, setup_.settings.rules);
+    trial.assessment = judgedWithoutPath(facts, setup_.settings.goal ? &goal_ : nullptr, samples_,
+                                         setup_.settings.rules);
   }
   trial.assessment.augmented = plan().augmented;
   trial.assessment.doses = doses_.doses();

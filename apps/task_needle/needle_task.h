@@ -115,4 +115,10 @@ class NeedleTask final : public trial::TrialTask {
   bool entered_vein_ = false;
 };
 
+/// A trial of a task without an expert path, judged; the same for a session and for its replay.
+/// `goal`: has seen all its samples; null: the task has none.
+assess::TrialAssessment judgedWithoutPath(const assess::TrialFacts& facts, const GoalTrial* goal,
+                                          const std::vector<assess::TrialSample>& samples,
+                                          const assess::ScoringRules& rules);
+
 }  // namespace palpa::task_needle

@@ -253,23 +253,20 @@ void TrialScene::keepPictures() {
   while (channels_.pictures_to_scene.pop(&moment)) {
     follow(now_ns_);  // what was asked for after this frame was composed
     composeAll();
-    char stem[96];
-    std::snprintf(stem, sizeof stem, "view-%02d-%02zu-%s", moment.trial, pictures_.size() + 1,
-                  moment.label.c_str());
-    save(stem, moment);
+    save(pictureFile(moment), moment);
   }
   if (!stage_.every_source_picture || !camera_ || !fresh_picture_) return;
   const std::string source = std::filesystem::path(camera_->source).stem().string();
   if (std::find(kept_sources_.begin(), kept_sources_.end(), source) != kept_sources_.end()) return;
   kept_sources_.push_back(source);
-  save("view-" + source,
+  save("view-" + source + ".png",
        {status_->trial, status_->elapsed_s, source,
         camera_->pose ? "Registered on " + source : "No board found in " + source});
 }
 
-void TrialScene::save(const std::string& stem, const PictureRequest& moment) {
+void TrialScene::save(const std::string& name, const PictureRequest& moment) {
   render();
-  const std::filesystem::path file = stage_.folder / (stem + ".png");
+  const std::filesystem::path file = stage_.folder / name;
   scene::writePng(stage_.view->capture(), file.string());
   pictures_.push_back({file, moment});
 }

@@ -100,7 +100,7 @@ class TrialScene : public runtime::Activity {
   void hideBehindRealThings();
   void render();
   void keepPictures();
-  void save(const std::string& stem, const PictureRequest& moment);
+  void save(const std::string& name, const PictureRequest& moment);
   void informOperator(std::int64_t now_ns);
 
   Stage stage_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace palpa::trial {
 
@@ -12,6 +13,29 @@ std::string endNotice(training::Role role, training::Outcome outcome, const std:
     return "Trial ended. The report gives the result";
   if (outcome == Outcome::success || outcome == Outcome::done) return result;
   return "Trial ended: " + training::nameOf(outcome);
+}
+
+namespace {
+
+constexpr char kBetween[] = ": ";
+
+}  // namespace
+
+std::string pictureFile(const PictureRequest& request) {
+  char before[32];
+  std::snprintf(before, sizeof before, "view-%02d-%02d-", request.trial, request.number);
+  return before + request.label + ".png";
+}
+
+std::string pictureText(const PictureRequest& request) {
+  return pictureFile(request) + kBetween + request.caption;
+}
+
+PictureInWords pictureIn(const std::string& text) {
+  const std::size_t at = text.find(kBetween);
+  if (at == std::string::npos) return {};
+  return {std::filesystem::path(text.substr(0, at)).filename().string(),
+          text.substr(at + sizeof kBetween - 1)};
 }
 
 std::string gradeText(double diameter, int hardness, int mobility) {

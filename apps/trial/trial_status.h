@@ -38,7 +38,18 @@ struct PictureRequest {
   double t_s = 0;
   std::string label;  ///< part of the file name
   std::string caption;
+  int number = 0;  ///< of the session's requests: 1, 2, ...
 };
+
+/// "view-02-07-puncture.png": the session's seventh, of its second trial.
+std::string pictureFile(const PictureRequest& request);
+/// A request as its event records it, "view-02-07-puncture.png: The skin is punctured", and read
+/// again; without a file for what is none.
+std::string pictureText(const PictureRequest& request);
+struct PictureInWords {
+  std::string file, caption;
+};
+PictureInWords pictureIn(const std::string& text);
 
 /// What the person in charge wants (keys, console), or whoever is being trained.
 enum class UserCommand : std::uint8_t {

@@ -28,6 +28,7 @@ TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels,
 }
 
 std::int64_t TrialTask::step(std::int64_t now_ns) {
+  now_ns_ = now_ns;
   apply(now_ns);
   watchStop(now_ns);
   receiveDevice();
@@ -287,15 +288,20 @@ void TrialTask::report(std::int64_t now_ns, EventKind kind, const std::string& t
   note({now_ns, status_.trial, nameOf(kind), text, value});
 }
 
+bool isForTheReport(const runtime::Event& event) {
+  return event.is(EventKind::safety) || event.is(EventKind::device) ||
+         (event.is(EventKind::camera) && event.value > 0);
+}
+
 void TrialTask::note(const runtime::Event& event) {
-  if (event.is(EventKind::safety) || event.is(EventKind::device) ||
-      (event.is(EventKind::camera) && event.value > 0))
-    safety_events_.push_back(event);
+  if (isForTheReport(event)) safety_events_.push_back(event);
   bus_.task_to_recorder.push(event);
 }
 
 void TrialTask::picture(const std::string& label, const std::string& caption) {
-  channels_.pictures_to_scene.push({status_.trial, status_.elapsed_s, label, caption});
+  const PictureRequest request{status_.trial, status_.elapsed_s, label, caption, ++pictures_};
+  report(now_ns_, EventKind::picture, pictureText(request), request.t_s);
+  channels_.pictures_to_scene.push(request);
 }
 
 void TrialTask::publish(std::int64_t now_ns) {

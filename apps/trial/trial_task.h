@@ -30,7 +30,7 @@ class TrialTask : public runtime::Activity {
   std::int64_t step(std::int64_t now_ns) override;
 
   bool quit() const { return quit_; }
-  /// Every "safety" and "device" event and every loss of the camera, in order.
+  /// Those that are for the report, in order.
   const std::vector<runtime::Event>& safetyEvents() const { return safety_events_; }
   std::uint64_t lostTicks() const { return bus_.haptic_to_task.overflows(); }
 
@@ -98,7 +98,12 @@ class TrialTask : public runtime::Activity {
   std::int64_t since_ns_ = 0;       ///< the current state began
   std::uint32_t presses_seen_ = 0;  ///< of the emergency stop
   std::int64_t start_ns_ = 0;       ///< of the trial
+  int pictures_ = 0;                ///< asked for so far
+  std::int64_t now_ns_ = 0;         ///< of this step
   bool quit_ = false;
 };
+
+/// "safety", "device", a loss of the camera: a report's notes tell of it.
+bool isForTheReport(const runtime::Event& event);
 
 }  // namespace palpa::trial

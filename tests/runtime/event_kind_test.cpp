@@ -7,7 +7,7 @@
 namespace palpa::runtime {
 namespace {
 
-constexpr int kKinds = static_cast<int>(EventKind::computer) + 1;
+constexpr int kKinds = static_cast<int>(EventKind::picture) + 1;
 
 TEST(EventKind, AnEventIsOfTheKindThatItIsRecordedAs) {
   for (int recorded = 0; recorded < kKinds; ++recorded) {
@@ -24,6 +24,7 @@ TEST(EventKind, NamesAreThoseOfRecords) {
   EXPECT_EQ(nameOf(EventKind::let_go), "let_go");
   EXPECT_EQ(nameOf(EventKind::answer), "answer");
   EXPECT_EQ(nameOf(EventKind::computer), "computer");
+  EXPECT_EQ(nameOf(EventKind::picture), "picture");
 }
 
 TEST(EventKind, HowATrialEndedIsNone) {
