@@ -57,9 +57,9 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
 namespace {
 
 /// Every trial and all its judged ticks; `tick` sees the others, too.
-void walkNeedle(const record::SessionReader& reader, const Pose& X_DA,
-                const record::TrialVisitor& besides,
-                const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
+void walkNeedle(
+    const record::SessionReader& reader, const Pose& X_DA, const record::TrialVisitor& besides,
+    const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
   assess::TrialSampler sampler(X_DA.inverse(), reader.info().tick_config.X_ET);
   NeedleSamples samples;
   record::walkTrials(

@@ -38,8 +38,8 @@ enum class EventKind : std::uint8_t {
 /// "ready", ..., "case", ...: in records, logs and on the wire.
 inline const std::string& nameOf(EventKind kind) {
   static const EnumNames<EventKind> kEventKinds{
-      "ready",   "start", "pause", "resume", "safety",   "emergency_stop", "rearm",   "device",
-      "camera",  "note",  "case",  "phase",  "puncture", "withdrawn",      "wall",    "vein",
+      "ready",   "start", "pause", "resume", "safety",   "emergency_stop", "rearm",    "device",
+      "camera",  "note",  "case",  "phase",  "puncture", "withdrawn",      "wall",     "vein",
       "touched", "mark",  "grade", "let_go", "thing",    "answer",         "computer", "picture"};
   return kEventKinds.of(kind);
 }

@@ -135,7 +135,7 @@ void headOfOld(const record::SessionInfo& info, const json& session, ReportHead*
   const json task = parseJson(info.task_json), station = parseJson(info.station_json);
   const std::string who = session.value("operator", "");
   head->title = task.value("title", info.command);
-  head->trainee = who == "person" ? head->user_id
+  head->trainee = who == "person"     ? head->user_id
                   : who == "recorded" ? "recorded hand"
                                       : "simulated " + who;
   head->station = {{"Station", station.value("title", ""), station.value("id", "")},

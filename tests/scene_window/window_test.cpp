@@ -48,7 +48,7 @@ class Window : public testing::Test {
       all.keys = std::move(keys);
       all.wheel = wheel;
       if (enough(all)) break;
-      std::system("sleep 0.01");
+      EXPECT_EQ(std::system("sleep 0.01"), 0);
     }
     return all;
   }
