@@ -5,6 +5,7 @@
 #include <map>
 
 #include "anatomy/base/error.h"
+#include "apps/cli/values.h"
 #include "apps/os/file_access.h"
 #include "apps/presentation/presentation.h"
 #include "apps/record/store/record_store.h"
@@ -46,7 +47,7 @@ CLI::Option* choice(CLI::App& command, const std::string& name, T& value,
   return command
       .add_option_function<std::string>(
           name, [&value, &choices](const std::string& text) { value = choices.at(text); }, help)
-      ->check(CLI::IsMember(choices))
+      ->check(oneOf(keysOf(choices)))
       ->type_name(names);
 }
 
@@ -62,7 +63,7 @@ void addOperator(CLI::App& command, session::SessionOptions& o) {
           },
           "Who performs: you, a simulated expert or novice, or a simulated operator of your own: "
           "a file like those in assets/operators")
-      ->check(CLI::IsMember(kOperators) | CLI::ExistingFile)
+      ->check(oneOfOrFile(keysOf(kOperators)))
       ->type_name("auto|expert|novice|person|FILE");
 }
 
@@ -86,7 +87,8 @@ void addRecordedPictures(CLI::App& command, session::SessionOptions& o) {
 
 void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
   command.add_option("--station", o.station, "Station file; default: the virtual bench")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(somethingThere("stations"));
   addOperator(command, o);
   command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can; repeats exactly");
   command.add_flag("--record-video", o.record_video,
@@ -108,7 +110,7 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
             o.display = o.headset ? scene::Display::automatic : kDisplays.at(text);
           },
           "Where to show it; openxr: on a headset, and on the desktop beside it")
-      ->check(CLI::IsMember({"auto", "window", "offscreen", kHeadset}))
+      ->check(oneOf({"auto", "window", "offscreen", kHeadset}))
       ->type_name("auto|offscreen|openxr|window");
   command.add_flag("--assess", o.assess,
                    "Assessment: every aid is off, as in an examination; a needle trial ends at "
@@ -119,26 +121,25 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
       .add_option(
           "--bench-seed", o.bench_seed,
           "Seed of the virtual bench's truth: the one it was calibrated with (default: as --seed)")
-      ->check(CLI::PositiveNumber);
+      ->check(moreThanZero());
   command
       .add_option(
           "--live", o.live,
           "Let a console watch and control the session, through a local socket at this path")
       ->type_name("SOCKET");
   command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop per second (default 1000)")
-      ->check(CLI::Range(1000.0, 4000.0));
+      ->check(inRange(1000.0, 4000.0, "a second"));
   command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")
-      ->check(CLI::Range(0, 1023));
+      ->check(inRange(0, 1023));
   command.add_flag("--quiet", o.quiet, "No progress on standard error");
 }
 
 void addRunArguments(CLI::App& command, session::SessionOptions& o) {
   addPlaceArguments(command, o);
   command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(atLeastZero());
   choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
-  command.add_option("--trials", o.trials, "Number of trials (default 1)")
-      ->check(CLI::Range(1, 1000));
+  command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(inRange(1, 1000));
   command
       .add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
       ->check(record::whyNoPseudonym);
@@ -155,7 +156,7 @@ void addRunArguments(CLI::App& command, session::SessionOptions& o) {
               "--igtl", o.igtl_port,
               "Let 3D Slicer and other programs follow this session live, by OpenIGTLink: where "
               "tool and patient are, forces, events. They connect to this port (usual: 18944)")
-          ->check(CLI::Range(1, 65535))
+          ->check(inRange(1, 65535))
           ->type_name("PORT");
   command
       .add_option(
@@ -175,6 +176,7 @@ void addRunArguments(CLI::App& command, session::SessionOptions& o) {
           "What may be seen: practice, assessed, pilot, substitution, or a file like those in "
           "assets/presentations. Default: practice; without force feedback practice that does not "
           "show the force either; assessed with --assess")
+      ->check(oneOfOrFile(shippedNames("presentations")))
       ->type_name("NAME|FILE");
   command.add_flag_callback(
       "--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
@@ -191,11 +193,12 @@ void addSessionArguments(CLI::App& command, session::SessionOptions& o) {
   command
       .add_option("--patient", o.patient,
                   "Patient file (.glb); default: built from reference figures")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(somethingThere("patients"));
   command
       .add_option("--patient-seed", o.patient_seed,
                   "Draw another patient; 0: the reference patient")
-      ->check(CLI::NonNegativeNumber);
+      ->check(atLeastZero());
   choice(command, "--side", o.side, kSides, "Side that is punctured");
   choice(command, "--handedness", o.left_handed, kHands, "The trainee's hand");
   choice(command, "--operator-knows", o.knows_patient, kKnowledge,
@@ -213,7 +216,8 @@ void addSessionArguments(CLI::App& command, session::SessionOptions& o) {
       "--no-familiarisation", [&o] { o.familiarisation = false; },
       "A person starts without a first unscored trial");
   command.add_option("--expert-path", o.expert_path, "Expert path; default: the task's")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
   choice(
       command, "--geometry", o.exact_geometry, kGeometries,
       "What the haptic loop knows of the shape: snapshots at 60 Hz, or the full mesh in every tick "
@@ -237,6 +241,10 @@ std::string usualRecords() {
   return (os::dataFolder("Set HOME, or say where the records are: --records FILE") /
           "palpa/records.sqlite")
       .string();
+}
+
+std::filesystem::path usualConsoleHome() {
+  return os::dataFolder("Set HOME, or say where sessions are kept: --home DIR") / "palpa/console";
 }
 
 std::string usualRecordsMade() {

@@ -1,5 +1,6 @@
 #include "apps/bench/bench.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 
 namespace palpa::cli {
 namespace {
@@ -11,7 +12,7 @@ void addHaptics(CLI::App& bench) {
   const auto options = std::make_shared<bench::HapticsBenchOptions>();
   haptics->add_flag("--quick", options->quick, "Small meshes and short strokes");
   haptics->add_option("--most-triangles", options->most_triangles, "Leave out larger meshes")
-      ->check(CLI::Range(1000, 1'000'000));
+      ->check(inRange(1000, 1'000'000));
   haptics->callback([options] { bench::benchHaptics(*options); });
 }
 
@@ -23,14 +24,14 @@ void addLoop(CLI::App& bench) {
       "bench loop --pages 2\n      the same again while two pages of the console watch");
   const auto options = std::make_shared<bench::LoopBenchOptions>();
   loop->add_option("--seconds", options->seconds, "Duration of the measurement, in 40 segments")
-      ->check(CLI::Range(1.0, 3600.0));
+      ->check(inRange(1.0, 3600.0, "s"));
   loop->add_option("--rate", options->rate_Hz, "Ticks per second")
-      ->check(CLI::Range(1000.0, 4000.0));
+      ->check(inRange(1000.0, 4000.0, "a second"));
   loop->add_option("--cpu", options->cpu, "Keep the measured thread on this processor")
-      ->check(CLI::Range(0, 1023));
+      ->check(inRange(0, 1023));
   loop->add_option("--pages", options->pages,
                    "Measure again while this many pages of the console are open")
-      ->check(CLI::Range(0, 8));
+      ->check(inRange(0, 8));
   loop->callback([options] { bench::benchLoop(*options); });
 }
 
@@ -53,7 +54,7 @@ void addCalibration(CLI::App& bench) {
   const auto options = std::make_shared<bench::CalibrationBenchOptions>();
   calibration
       ->add_option("--sets", options->sets, "Synthetic sets for each estimator (default 500)")
-      ->check(CLI::Range(10, 100'000));
+      ->check(inRange(10, 100'000));
   calibration->callback([options] { bench::benchCalibration(*options); });
 }
 
@@ -78,9 +79,9 @@ void addRenderBench(CLI::App& bench) {
       "1080");
   const auto options = std::make_shared<bench::RenderBenchOptions>();
   render->add_option("--width", options->width, "Width of the window, px")
-      ->check(CLI::Range(320, 4096));
+      ->check(inRange(320, 4096));
   render->add_option("--height", options->height, "Height of the window, px")
-      ->check(CLI::Range(240, 4096));
+      ->check(inRange(240, 4096));
   render->add_flag("--quick", options->quick, "Fewer repetitions");
   render->callback([options] { bench::benchRender(*options); });
 }
@@ -93,20 +94,21 @@ void addTracking(CLI::App& bench) {
       "--speed 0.1 --quick");
   const auto options = std::make_shared<bench::TrackingBenchOptions>();
   tracking->add_option("--distance", options->distance, "From camera to board, m")
-      ->check(CLI::Range(0.2, 3.0));
+      ->check(inRange(0.2, 3.0, "m"));
   tracking->add_option("--speed", options->speed, "Peak speed of the motion, m/s")
-      ->check(CLI::Range(0.01, 2.0));
+      ->check(inRange(0.01, 2.0, "m/s"));
   tracking
       ->add_option("--horizon", options->horizon_ms,
                    "From an exposure to when its pose is drawn, ms")
-      ->check(CLI::Range(0.0, 200.0));
+      ->check(inRange(0.0, 200.0, "ms"));
   tracking->add_option("--width", options->width, "Width of the picture, px")
-      ->check(CLI::Range(320, 4096));
+      ->check(inRange(320, 4096));
   tracking->add_option("--height", options->height, "Height of the picture, px")
-      ->check(CLI::Range(240, 4096));
+      ->check(inRange(240, 4096));
   tracking->add_option("--rate", options->rate_Hz, "Pictures per second")
-      ->check(CLI::Range(5.0, 240.0));
-  tracking->add_option("--seed", options->seed, "Seed of the simulated noise");
+      ->check(inRange(5.0, 240.0, "a second"));
+  tracking->add_option("--seed", options->seed, "Seed of the simulated noise")
+      ->check(atLeastZero());
   tracking->add_flag("--quick", options->quick, "A tenth of the pictures");
   tracking->callback([options] { bench::benchTracking(*options); });
 }

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/report/paper/board_page.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
@@ -45,8 +46,9 @@ void addBoard(CLI::App& program) {
       "  palpa board print --board chessboard:9x6:0.025 --paper a3 --out chessboard.pdf\n"
       "  palpa board print --out board.png --dpi 300");
   const auto o = std::make_shared<BoardOptions>();
-  CLI::Option* file =
-      command->add_option("--station", o->station, "Station file")->type_name("FILE");
+  CLI::Option* file = command->add_option("--station", o->station, "Station file")
+                          ->type_name("FILE")
+                          ->check(somethingThere("stations"));
   command
       ->add_option("--board", o->board,
                    "Instead of the station's: tags:, aprilgrid:, chessboard:, charuco: or "
@@ -55,9 +57,9 @@ void addBoard(CLI::App& program) {
   command->add_option("--out", o->out, "PDF or PNG to write (default board.pdf)")
       ->type_name("FILE");
   command->add_option("--paper", o->page.paper, "Paper size (default a4); fit: as large as needed")
-      ->check(CLI::IsMember(report::papers()));
+      ->check(oneOf(report::papers()));
   command->add_option("--dpi", o->page.dpi, "Dots per inch of a PNG (default 300)")
-      ->check(CLI::Range(72, 1200));
+      ->check(inRange(72, 1200));
   command->callback([o] { print(*o); });
 }
 

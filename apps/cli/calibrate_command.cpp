@@ -4,6 +4,7 @@
 #include "anatomy/base/error.h"
 #include "apps/calibrate/subtask_page.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/output_folder.h"
 
@@ -82,11 +83,12 @@ void addSubtaskCalibration(CLI::App& calibrate) {
   command
       ->add_option("--task", o->task,
                    "Task file to take the parts' names from; otherwise what was recorded")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
   command
       ->add_option("--states", o->states, "Use this many states; otherwise as many as are proposed")
-      ->check(CLI::Range(2, calibrate::kMostProposed));
-  command->add_option("--seed", o->seed, "Seed of the fits' starts")->check(CLI::NonNegativeNumber);
+      ->check(inRange(2, calibrate::kMostProposed));
+  command->add_option("--seed", o->seed, "Seed of the fits' starts")->check(atLeastZero());
   command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
   command->add_flag("--quiet", o->quiet, "No progress");
   command->callback([o] { calibrateSubtasks(*o); });

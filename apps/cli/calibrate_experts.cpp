@@ -8,6 +8,7 @@
 #include "anatomy/base/units.h"
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
@@ -147,17 +148,15 @@ void addExpertCalibration(CLI::App& calibrate) {
   experts
       ->add_option("--simulate", o->simulate,
                    "Record this many trials of each simulated expert first, on each patient")
-      ->check(CLI::Range(1, 1000));
-  experts->add_option("--experts", o->experts, "How many simulated experts")
-      ->check(CLI::Range(1, 20));
+      ->check(inRange(1, 1000));
+  experts->add_option("--experts", o->experts, "How many simulated experts")->check(inRange(1, 20));
   experts
       ->add_option("--patients", o->patients,
                    "On so many drawn patients, whose pictures the simulated experts have studied; "
                    "default: on the reference patient, by the mean anatomy")
-      ->check(CLI::Range(1, 1000));
-  experts->add_option("--seed", o->seed, "Seed of the simulated experts")
-      ->check(CLI::NonNegativeNumber);
-  experts->add_option("--least", o->least, "Fewest trials to accept")->check(CLI::Range(3, 1000));
+      ->check(inRange(1, 1000));
+  experts->add_option("--seed", o->seed, "Seed of the simulated experts")->check(atLeastZero());
+  experts->add_option("--least", o->least, "Fewest trials to accept")->check(inRange(3, 1000));
   experts->add_option("--sessions", o->sessions, "Folder for the simulated sessions")
       ->type_name("DIR");
   experts->add_option("--out", o->out, "File to write")->type_name("FILE");

@@ -1,9 +1,11 @@
 #include "apps/cli/calibrate_samples.h"
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/nearest_word.h"
 #include "apps/calibrate/collect.h"
 #include "apps/calibrate/recorded.h"
 #include "apps/calibrate/results.h"
+#include "apps/cli/values.h"
 #include "apps/station/assets.h"
 #include "apps/twin/phantom/phantom_file.h"
 
@@ -89,12 +91,14 @@ constexpr double kPressFor_s = 20, kStrokeFor_s = 25, kPressLumpFor_s = 6, kStro
 double lumpDepthOf(const station::Station& station, const std::string& mockup) {
   const twin::PhantomFile file = twin::readPhantoms(
       station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json"));
-  for (const twin::Phantom& phantom : file.phantoms)
-    if (phantom.name == mockup && phantom.block.lump) return -phantom.block.lump->centre.z();
-  throw UsageError(
-      "is not a simulated sample with a lump", "\"" + mockup + "\"",
-      "See " +
-          station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json").string());
+  std::vector<std::string> known;
+  for (const twin::Phantom& phantom : file.phantoms) {
+    if (!phantom.block.lump) continue;
+    if (phantom.name == mockup) return -phantom.block.lump->centre.z();
+    known.push_back(phantom.name);
+  }
+  throw UsageError("is not a simulated sample with a lump" + didYouMean(mockup, known),
+                   "\"" + mockup + "\"", "There are: " + listed(known, "and"));
 }
 
 /// Without the lump, above it, on four sides of it, and beside it once more to judge by.

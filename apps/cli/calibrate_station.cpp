@@ -11,6 +11,7 @@
 #include "apps/calibrate/watched_picture.h"
 #include "apps/cli/calibrate_samples.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/output_folder.h"
@@ -236,7 +237,7 @@ void addFiles(CLI::App* command, CalibrateOptions* o) {
     file("--beside", &o->beside, "Recorded presses beside it");
     file("--check", &o->check, "Recorded presses at another place, to check the result");
     command->add_option("--depth-mm", o->depth_mm, "How deep the lump's middle lies")
-        ->check(CLI::Range(1.0, 200.0));
+        ->check(inRange(1.0, 200.0, "mm"));
     command->add_option("--mockup", o->mockup, "Simulated sample on the virtual bench")
         ->type_name("NAME");
   }
@@ -244,6 +245,7 @@ void addFiles(CLI::App* command, CalibrateOptions* o) {
     file("--readings", &o->readings, "Recorded static readings");
     command->add_option("--down", o->down, "Where weight pulls, in the device's base")
         ->expected(3)
+        ->check(aNumber())
         ->type_name("X Y Z");
   }
 }
@@ -257,9 +259,9 @@ void addStationCalibrations(CLI::App& calibrate) {
     CLI::App* command = calibrate.add_subcommand(o->name(), routine.about);
     command->footer(routine.examples);
     command->add_option("--station", o->station, "Station file; otherwise the virtual bench")
-        ->type_name("FILE");
-    command->add_option("--seed", o->seed, "Seed of the virtual bench")
-        ->check(CLI::NonNegativeNumber);
+        ->type_name("FILE")
+        ->check(somethingThere("stations"));
+    command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(atLeastZero());
     command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
     command->add_flag("--quiet", o->quiet, "No progress");
     command

@@ -29,8 +29,8 @@ bool areWords(const std::string& value) {
   return plain && value.find('|') != std::string::npos;
 }
 
-/// The library says "TEXT:{f,m}", "FLOAT:FLOAT in [1000 - 4000]", "UINT:NONNEGATIVE"; a person is
-/// told "f|m", "NUMBER" and the range.
+/// The library says "TEXT:{f,m}", "FLOAT:[1000 - 4000]", "UINT"; a person is told "f|m", "NUMBER"
+/// and the range. What stands behind the colon comes from values.cpp.
 void readType(const std::string& type, OptionText* option) {
   const std::size_t colon = type.find(':');
   std::string kind = type.substr(0, colon);
@@ -38,7 +38,7 @@ void readType(const std::string& type, OptionText* option) {
   if (kind == "FLOAT" || kind == "INT" || kind == "UINT") kind = "NUMBER";
   if (const std::size_t open = limits.find('{'); open != std::string::npos) {
     option->choices = split(limits.substr(open + 1, limits.find('}', open) - open - 1), ',');
-    kind = joined(option->choices, "|");
+    kind = joined(option->choices, "|") + (kind.find("FILE") == std::string::npos ? "" : "|FILE");
   } else if (areWords(kind)) {
     option->choices = split(kind, '|');
   }
@@ -49,6 +49,8 @@ void readType(const std::string& type, OptionText* option) {
   }
   option->value = kind;
 }
+
+}  // namespace
 
 OptionText describe(const CLI::Option& given) {
   OptionText option;
@@ -66,6 +68,8 @@ OptionText describe(const CLI::Option& given) {
   }
   return option;
 }
+
+namespace {
 
 CommandText described(const CLI::App& app, const std::string& above) {
   CommandText command;
@@ -86,5 +90,33 @@ CommandText described(const CLI::App& app, const std::string& above) {
 }  // namespace
 
 CommandText describe(const CLI::App& app) { return described(app, ""); }
+
+namespace {
+
+std::string namesOf(const std::set<CLI::Option*>& options) {
+  std::string names;
+  for (const CLI::Option* option : options) names += " " + option->get_name();
+  return names;
+}
+
+class PlainHelp : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const OptionText text = describe(*option);
+    std::string words = text.value.empty() ? "" : " " + text.value;
+    if (text.required) words += " (required)";
+    if (!option->get_needs().empty()) words += " (with" + namesOf(option->get_needs()) + ")";
+    if (!option->get_excludes().empty())
+      words += " (without" + namesOf(option->get_excludes()) + ")";
+    return words;
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return describe(*option).description;
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<CLI::FormatterBase> plainHelp() { return std::make_shared<PlainHelp>(); }
 
 }  // namespace palpa::cli

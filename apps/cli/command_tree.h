@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct CommandText {
 };
 
 CommandText describe(const CLI::App& app);
+OptionText describe(const CLI::Option& option);
+
+/// How --help tells options: as above, in place of the library's names of types.
+std::shared_ptr<CLI::FormatterBase> plainHelp();
 
 /// The program's manual page, palpa(1), in roff: every command with its options and examples.
 /// `welcome`: what the program says when it is started alone.

@@ -1,10 +1,20 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 /// One function a subcommand of `palpa`: adds it to the program with its options, examples and
 /// action. Actions throw UsageError (exit code 2) or Error (1).
 namespace palpa::cli {
+
+/// All of them, with the program's own name, options and help.
+void addCommands(CLI::App& program);
+
+/// Reads the words after the program's name and does what they say; the exit code. Mistakes in
+/// them are told, what an action throws comes through.
+int runCommand(std::vector<std::string> words);
 
 void addParacentesis(CLI::App& program);
 void addPalpation(CLI::App& program);

@@ -7,11 +7,12 @@
 
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
+#include "apps/cli/values.h"
 #include "apps/console/console.h"
 #include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
 #include "apps/os/local_socket.h"
-#include "apps/session/event_tone.h"
+#include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
@@ -27,10 +28,6 @@ struct ConsoleOptions {
   int port = 0;
   bool open = true;
 };
-
-fs::path usualHome() {
-  return os::dataFolder("Set HOME, or say where sessions are kept: --home DIR") / "palpa/console";
-}
 
 /// The first line; a file that others may read gives its token away.
 std::string tokenIn(const std::string& file) {
@@ -56,7 +53,7 @@ void openInBrowser(const std::string& url) {
 
 console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   console::ConsoleSettings s;
-  s.place.home = fs::absolute(o.home.empty() ? usualHome() : fs::path(o.home));
+  s.place.home = fs::absolute(o.home.empty() ? usualConsoleHome() : fs::path(o.home));
   s.place.pages = station::assetFile("console");
   s.place.records = o.records;
   s.place.sockets = os::socketFolder();
@@ -106,8 +103,7 @@ void addConsole(CLI::App& program) {
           "--listen", o->listen,
           "Address to listen on (default 127.0.0.1: this computer only); others need --token-file")
       ->type_name("ADDRESS");
-  command->add_option("--port", o->port, "Port (default: any free one)")
-      ->check(CLI::Range(1, 65535));
+  command->add_option("--port", o->port, "Port (default: any free one)")->check(inRange(1, 65535));
   command
       ->add_option("--token-file", o->token_file,
                    "File with the token that anyone who opens the pages must enter; only you may "

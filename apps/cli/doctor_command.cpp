@@ -5,6 +5,7 @@
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/doctor/computer_check.h"
 #include "apps/doctor/device_check.h"
 #include "apps/doctor/picture_facts.h"
@@ -191,10 +192,10 @@ void addDoctor(CLI::App& program) {
                    "Instead of the station's camera: recorded pictures or a film of it")
       ->type_name("GLOB|FILM");
   command->add_option("--bar", o->bar_mm, "Length of the printed board's 100 mm bar by a ruler, mm")
-      ->check(CLI::Range(50.0, 200.0));
+      ->check(inRange(50.0, 200.0, "mm"));
   command->add_option("--out", o->out, "Where results of sessions will go (default out)")
       ->type_name("DIR");
-  command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(CLI::PositiveNumber);
+  command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(moreThanZero());
   command->add_flag("--json", o->json,
                     "For programs: {\"can_start\", \"findings\": [{\"subject\", \"state\", "
                     "\"verdict\", \"fix\"}]}");

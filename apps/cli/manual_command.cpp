@@ -125,7 +125,7 @@ std::string manualPage(const CommandText& program, const std::string& version,
   page += ".SH DESCRIPTION\n" + asItStands(welcome) +
           ".PP\nNot a medical device: Palpa has not been validated on people.\n.SH COMMANDS\nEvery "
           "command also understands " +
-          bold("--help") + ".\n";
+          bold("--help") + " and " + bold("--verbose") + ".\n";
   for (const CommandText& command : program.commands) page += sectionsOf(command);
   page += ".SH EXIT STATUS\n" + listOf(std::begin(kCodes), std::end(kCodes));
   page += ".SH ENVIRONMENT\n" + listOf(std::begin(kVariables), std::end(kVariables));

@@ -13,6 +13,7 @@
 #include "anatomy/patient/patient_file.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/patient_sources.h"
+#include "apps/cli/values.h"
 #include "apps/station/assets.h"
 #include "scene/view/contact_sheet.h"
 #include "scene/view/scene_view.h"
@@ -128,10 +129,6 @@ void printSurface(const CheckedSurface& surface, const PatientOptions& o) {
 /// Surfaces of a file that is no patient of ours (yet).
 void printSurfaces(const PatientOptions& o) {
   const Organ organ = o.organ.empty() ? Organ::none : organFromName(o.organ.c_str());
-  if (!o.organ.empty() && organ == Organ::none)
-    throw UsageError("is \"" + o.organ + "\"", "--organ",
-                     "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery, scapula, "
-                     "cartilage, airway, spine, inclusion");
   const anatomy::Unit unit = unitOf(o);
   std::vector<CheckedSurface> surfaces;
   for (anatomy::RawMesh& mesh : anatomy::readMeshFile(o.file)) {
@@ -189,9 +186,9 @@ void addImport(CLI::App& patient) {
   command->add_option("--axes", o->axes, "Instead of the map's default, for example LSA")
       ->type_name("AXES");
   command->add_option("--triangles", o->triangles, "At most so many in the whole patient; 0: all")
-      ->check(CLI::Range(0, 20'000'000));
+      ->check(inRange(0, 20'000'000));
   command->add_option("--weld", o->weld_mm, "Join seams up to this width, mm")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(inRange(0.0, 1.0, "mm"));
   command->callback([o] { import(*o); });
 }
 
@@ -211,13 +208,13 @@ void addPatient(CLI::App& program) {
   const CLI::Option* side =
       make->add_option("--side", o->side,
                        "Side that is punctured (CT: by default that of the contrast)")
-          ->check(CLI::IsMember({"right", "left"}));
-  make->add_option("--sex", o->sex, "f or m (default: drawn)")->check(CLI::IsMember({"f", "m"}));
-  make->add_option("--height", o->height, "Metres (default: drawn)");
-  make->add_option("--bmi", o->bmi, "Body mass index, kg/m2 (default: drawn)");
+          ->check(oneOf({"right", "left"}));
+  make->add_option("--sex", o->sex, "f or m (default: drawn)")->check(oneOf({"f", "m"}));
+  make->add_option("--height", o->height, "Metres (default: drawn)")->check(aNumber());
+  make->add_option("--bmi", o->bmi, "Body mass index, kg/m2 (default: drawn)")->check(aNumber());
   make->add_option("--seed", o->seed,
                    "0: the means of such a person; others are drawn from the spreads")
-      ->check(CLI::NonNegativeNumber);
+      ->check(atLeastZero());
   make->add_option("--out", o->out, "File to write (.glb)")->type_name("FILE");
   const auto ct = addCtOptions(*make);
   addPhantomOptions(*make, &o->phantom);
@@ -244,7 +241,9 @@ void addPatient(CLI::App& program) {
   tells->add_option("--unit", o->unit, "Unit of a file of surfaces: " + anatomy::knownUnits())
       ->type_name("UNIT");
   tells->add_option("--organ", o->organ, "What the surfaces are, to check their size")
-      ->type_name("ORGAN");
+      ->type_name("ORGAN")
+      ->check(oneOf({"skin", "muscle", "clavicle", "rib", "sternum", "lung", "vein", "artery",
+                     "scapula", "cartilage", "airway", "spine", "inclusion"}));
   tells->callback([o] { info(*o); });
 }
 
@@ -276,9 +275,11 @@ void addRender(CLI::App& program) {
   command->footer(
       "Example:\n  palpa render --patient p.glb --out p.png      (without a file: the reference "
       "patient)");
-  command->add_option("--patient", o->patient, "Patient file (.glb)")->type_name("FILE");
+  command->add_option("--patient", o->patient, "Patient file (.glb)")
+      ->type_name("FILE")
+      ->check(somethingThere("patients"));
   command->add_option("--out", o->out, "Picture to write (.png)")->type_name("FILE");
-  command->add_option("--size", o->size, "Pixels a side")->check(CLI::Range(300, 8192));
+  command->add_option("--size", o->size, "Pixels a side")->check(inRange(300, 8192));
   command->callback([o] { render(*o); });
 }
 

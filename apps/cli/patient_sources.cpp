@@ -5,14 +5,14 @@
 #include <filesystem>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
-#include "anatomy/patient/gltf_picture.h"
+#include "anatomy/patient/gltf.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/volume/ct_patient.h"
 #include "anatomy/volume/scan.h"
 #include "anatomy/volume/seed_file.h"
 #include "anatomy/volume/volume.h"
+#include "apps/cli/values.h"
 #include "apps/os/file_access.h"
 
 namespace palpa::cli {
@@ -102,10 +102,15 @@ std::shared_ptr<CtArguments> addCtOptions(CLI::App& command) {
       ->type_name("NAME=X,Y,Z");
   only(command.add_option("--previews", a->previews, "Folder for pictures of each step"))
       ->type_name("DIR");
-  a->bone_given = only(command.add_option(
-      "--bone-level", a->bone, "Value at which bone begins (Hounsfield, or the volume's own)"));
-  a->dense_given = only(command.add_option("--vein-level", a->dense,
-                                           "Value at which the contrast-filled vein begins"));
+  a->bone_given =
+      only(command
+               .add_option("--bone-level", a->bone,
+                           "Value at which bone begins (Hounsfield, or the volume's own)")
+               ->check(aNumber()));
+  a->dense_given = only(
+      command
+          .add_option("--vein-level", a->dense, "Value at which the contrast-filled vein begins")
+          ->check(aNumber()));
   return a;
 }
 
@@ -136,21 +141,23 @@ void addPhantomOptions(CLI::App& command, PhantomOptions* options) {
       command
           .add_option("--phantom", options->kind,
                       "A phantom to palpate, instead of a person: breast or abdomen")
-          ->check(CLI::IsMember({"breast", "abdomen"}));
+          ->check(oneOf({"breast", "abdomen"}));
   command
       .add_option(
           "--inclusion-mm", options->inclusion_mm,
           "Diameter of something hard in it; abdomen: thickness of a liver's edge (default: none)")
-      ->check(CLI::Range(2.0, 200.0))
+      ->check(inRange(2.0, 200.0, "mm"))
       ->needs(phantom);
   command.add_option("--depth-mm", options->depth_mm, "Silicone over it")
-      ->check(CLI::Range(1.0, 100.0))
+      ->check(inRange(1.0, 100.0, "mm"))
       ->needs(phantom);
   command
       .add_option("--left-mm", options->left_mm,
                   "Breast: how far it lies to the left of the middle")
+      ->check(aNumber())
       ->needs(phantom);
   command.add_option("--up-mm", options->up_mm, "Breast: how far it lies above the middle")
+      ->check(aNumber())
       ->needs(phantom);
 }
 

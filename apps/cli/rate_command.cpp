@@ -8,6 +8,7 @@
 #include "apps/assess/competence/rating_agreement.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/evidence/rating_forms.h"
 #include "apps/record/session_file.h"
 #include "apps/report/paper/rating_form.h"
@@ -189,7 +190,7 @@ CLI::App* sub(CLI::App* parent, const std::shared_ptr<RateOptions>& o, const cha
 
 CLI::Option* addTrial(CLI::App* command, RateOptions& o) {
   command->add_option("--trial", o.trial, "Number of the trial (default 1)")
-      ->check(CLI::Range(1, 100000));
+      ->check(inRange(1, 100000));
   return command
       ->add_option("--session", o.session, "A session's folder, or its UUID in the records")
       ->type_name("DIR|UUID");

@@ -11,6 +11,7 @@
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/records_actions.h"
+#include "apps/cli/values.h"
 #include "apps/evidence/evidence_records.h"
 #include "apps/record/store/delivery.h"
 #include "apps/runtime/clock.h"
@@ -145,7 +146,7 @@ void addTraineeOptions(CLI::App* command, RecordsOptions& o) {
   command->add_option("--group", o.group, "In the educator's words: novice, experienced, ...");
   command->add_option("--experience", o.experience, "\"3rd year\", \"50 lines\", ...");
   command->add_option("--handedness", o.handedness, "right (default) or left")
-      ->check(CLI::IsMember({"right", "left"}));
+      ->check(oneOf({"right", "left"}));
   command
       ->add_option("--keep-until", o.retain_until, "Date after which the records are to be deleted")
       ->type_name("YYYY-MM-DD")
@@ -187,9 +188,22 @@ void addTrainees(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
       ->check(whyNoDate);
   overdue->add_flag("--delete", o->remove, "Delete them, with their evidence");
   CLI::App* remove =
-      sub(command, o, "delete", "Delete a person: records and evidence, for good", deletePerson);
-  addId(remove, *o);
-  for (CLI::App* one : {overdue, remove}) one->add_flag("--yes", o->yes, "Yes, for good");
+      sub(command, o, "delete",
+          "Delete a person: records, evidence, reports, and what the console keeps, for good",
+          deletePerson);
+  remove->add_option("--id", o->trainee.id, "The trainee's pseudonym")->type_name("ID");
+  remove->add_flag("--left", o->left,
+                   "Delete what earlier deletions had to leave, where it is on this computer");
+  remove
+      ->add_option("--forget", o->forget,
+                   "A session whose evidence is gone for good: it is not named any more")
+      ->type_name("UUID");
+  for (CLI::App* one : {overdue, remove}) {
+    one->add_flag("--yes", o->yes, "Yes, for good");
+    one->add_option("--home", o->home,
+                    "Where the console keeps its sessions (default ~/.local/share/palpa/console)")
+        ->type_name("DIR");
+  }
 }
 
 void addStore(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
@@ -223,7 +237,7 @@ void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   addWho(data, *o);
   data->add_option("--out", o->out, "Folder (default out/records-<time>)")->type_name("DIR");
   data->add_option("--format", o->format, "csv, json, or both (default)")
-      ->check(CLI::IsMember({"csv", "json", "both"}))
+      ->check(oneOf({"csv", "json", "both"}))
       ->type_name("csv|json|both");
   data->add_flag("--research", o->research, "For a study: only people who have agreed to that");
   data->add_flag("--paths", o->paths, "Include the paths of evidence on this computer");

@@ -8,8 +8,9 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/cli/values.h"
 #include "apps/evidence/recorded_show.h"
-#include "apps/live/jpeg.h"
+#include "apps/live/port.h"
 #include "apps/os/signals.h"
 #include "apps/replay/film.h"
 #include "apps/replay/player.h"
@@ -166,15 +167,15 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
           "Write single pictures into this folder (JPEG), and what happened when (pictures.json)")
       ->type_name("DIR");
   command.add_option("--trial", o.trial, "Which trial; default: the first that was finished")
-      ->check(CLI::PositiveNumber);
+      ->check(inRange(1, 100000));
   command.add_option("--speed", o.speed, "1: as fast as recorded")
-      ->check(CLI::Range(replay::kSlowest, replay::kFastest));
+      ->check(inRange(replay::kSlowest, replay::kFastest));
   command.add_option("--from", o.from_s, "Second of the trial to start at")
-      ->check(CLI::NonNegativeNumber);
+      ->check(notNegative("s"));
   command.add_option("--to", o.to_s, "Second of the trial to stop at; default: its end")
-      ->check(CLI::NonNegativeNumber);
+      ->check(notNegative("s"));
   command.add_option("--fps", o.frames_per_second, "Pictures per second")
-      ->check(CLI::Range(1.0, 120.0));
+      ->check(inRange(1.0, 120.0, "a second"));
   command.add_option("--size", o.size, "Size of the pictures, pixels")->type_name("WxH");
 }
 

@@ -8,6 +8,7 @@
 #include "anatomy/base/json_text.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/evidence/evidence_records.h"
 #include "apps/evidence/rating_forms.h"
 #include "apps/evidence/recorded_session.h"
@@ -149,14 +150,16 @@ void addReportTrial(CLI::App& report) {
       ->required()
       ->type_name("FILE");
   command->add_option("--trial", o->trial, "Number of the trial (default 1)")
-      ->check(CLI::Range(1, 100000));
+      ->check(inRange(1, 100000));
   command->add_option("--beside", o->beside, "Session with a trial to draw beside it, an expert's")
       ->type_name("FILE");
   command->add_option("--beside-trial", o->beside_trial, "Which of its trials (default 1)")
-      ->check(CLI::Range(1, 100000));
-  command->add_option(
-      "--standard", o->standard,
-      "Share of items required, per cent: a standard of the checklist (default: its first)");
+      ->check(inRange(1, 100000));
+  command
+      ->add_option(
+          "--standard", o->standard,
+          "Share of items required, per cent: a standard of the checklist (default: its first)")
+      ->check(aNumber());
   command->add_option("--checklist", o->checklist, "Checklist (default: the shipped one)")
       ->type_name("FILE");
   command->add_option("--global", o->global, "Global rating (default: the shipped one)")
@@ -233,11 +236,14 @@ void addPageArguments(CLI::App& command, ReportOptions& o) {
   addRecordsArgument(command, o.url);
   command.add_option("--task", o.choice.task,
                      "Only trials of this command: paracentesis, palpation, search, squeeze");
-  command.add_option("--acceptable", o.rates.acceptable,
-                     "Failure rate that is acceptable; the educator's choice, none is established "
-                     "(with --unacceptable: 0.10/0.25, 0.10/0.20, 0.05/0.15, 0.05/0.10 need 13, "
-                     "19, 20, 41 trials without failure)");
-  command.add_option("--unacceptable", o.rates.unacceptable, "Failure rate that is not");
+  command
+      .add_option("--acceptable", o.rates.acceptable,
+                  "Failure rate that is acceptable; the educator's choice, none is established "
+                  "(with --unacceptable: 0.10/0.25, 0.10/0.20, 0.05/0.15, 0.05/0.10 need 13, "
+                  "19, 20, 41 trials without failure)")
+      ->check(aNumber());
+  command.add_option("--unacceptable", o.rates.unacceptable, "Failure rate that is not")
+      ->check(aNumber());
   command.add_option("--out", o.out, "Folder for the page; default: out/report-...")
       ->type_name("DIR");
 }

@@ -5,6 +5,7 @@
 #include "anatomy/base/json_file.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/session/whole_session.h"
 #include "apps/station/assets.h"
 #include "apps/training/engine.h"
@@ -72,15 +73,16 @@ void addPalpation(CLI::App& program) {
   const auto preset = std::make_shared<std::string>("breast");
   command
       ->add_option("--preset", *preset, "Phantom and cases: breast (default), abdomen or prostate")
-      ->check(CLI::IsMember(kPresets))
+      ->check(oneOf(keysOf(kPresets)))
       ->type_name("abdomen|breast|prostate");
   command->add_option("--task", options->task, "Task file, in place of a preset")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
   const auto on_off = [command](const char* name, bool& value, const char* help) {
     command
         ->add_option_function<std::string>(
             name, [&value](const std::string& text) { value = text == "on"; }, help)
-        ->check(CLI::IsMember({"on", "off"}))
+        ->check(oneOf({"on", "off"}))
         ->type_name("on|off");
   };
   on_off("--guidance", options->guidance,
@@ -114,7 +116,8 @@ void addSqueeze(CLI::App& program) {
       "A training session: which of two things in the hand is harder, which is heavier?");
   command->footer(kSqueezeExamples);
   command->add_option("--task", options->task, "Task file (default: the shipped one)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
   addRunArguments(*command, *options);
   command->callback([options] { session::holdSqueeze(*options); });
 }
@@ -141,14 +144,15 @@ void addSearch(CLI::App& program) {
       "search", "A training session: find the rough one of three hidden things by touch");
   command->footer(kSearchExamples);
   command->add_option("--task", options->task, "Task file (default: the shipped one)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
   command
       ->add_option(
           "--mode", options->mode,
           "How the floor is rendered: as stiff as the device can render (real, the default), a "
           "fifth of that (degraded), that with cues added (augmented), or each episode in all "
           "three")
-      ->check(CLI::IsMember({"real", "degraded", "augmented", "all"}))
+      ->check(oneOf({"real", "degraded", "augmented", "all"}))
       ->type_name("all|augmented|degraded|real");
   command->add_flag("--blocks", options->blocks,
                     "The task's blocks in place of --trials; training in the chosen mode");
@@ -182,7 +186,10 @@ void addTrain(CLI::App& program) {
       "Examples:\n  palpa train --task assets/tasks/paracentesis.json --operator expert --fast\n  "
       "palpa train --task assets/tasks/palpation_prostate.json --operator expert --fast\n  palpa "
       "train --task assets/tasks/bone_pin.json --augment on --operator expert --fast");
-  command->add_option("--task", options->task, "Task file")->required()->type_name("FILE");
+  command->add_option("--task", options->task, "Task file")
+      ->required()
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
   addSessionArguments(*command, *options);
   command->callback([options, command] {
     options->command = "train";

@@ -2,11 +2,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/nearest_word.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/report/study/study_report.h"
 #include "apps/session/output_folder.h"
 #include "apps/study/analysis/power_analysis.h"
@@ -70,11 +73,13 @@ using study_analysis::StudyRow;
 template <class NameOf>
 void requireNames(const std::vector<std::string>& names, const std::vector<StudyRow>& rows,
                   const char* option, NameOf nameOf) {
+  std::set<std::string> there;
+  for (const StudyRow& row : rows) there.insert(nameOf(row));
+  const std::vector<std::string> known(there.begin(), there.end());
   for (const std::string& name : names)
-    if (std::none_of(rows.begin(), rows.end(),
-                     [&](const StudyRow& row) { return nameOf(row) == name; }))
-      throw UsageError("is in no trial of this study", std::string(option) + " " + name,
-                       "Write it as the protocol or the table does");
+    if (there.count(name) == 0)
+      throw UsageError("is in no trial of this study" + didYouMean(name, known),
+                       std::string(option) + " " + name, "There are: " + listed(known, "and"));
 }
 
 void analyse(const AnalyseOptions& o) {
@@ -107,7 +112,8 @@ void addStudyAnalyse(CLI::App& study) {
   command
       ->add_option("--protocol", o->protocol,
                    "The study's protocol: id, groups, conditions, kind of analysis")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(somethingThere("protocols"));
   command->add_option("--study", o->study, "The study's id in the records; default: the protocol's")
       ->type_name("ID");
   addRecordsArgument(*command, o->records);
@@ -190,16 +196,16 @@ void addStudyPlan(CLI::App& study) {
   command
       ->add_option("--subjects", o->drawn.subjects,
                    "Subjects in each group and condition (default 5, as in the published pilot)")
-      ->check(CLI::Range(2, 1000));
+      ->check(inRange(2, 1000));
   command->add_option("--trials", o->drawn.trials, "Trials of each subject (default 10)")
-      ->check(CLI::Range(4, 1000));
+      ->check(inRange(4, 1000));
   command->add_option("--simulate", o->drawn.studies, "Studies to draw (default 2000)")
-      ->check(CLI::Range(1, 1000000));
+      ->check(inRange(1, 1000000));
   command->add_option("--level", o->drawn.level, "Level of each test (default 0.05)")
-      ->check(CLI::Range(0.0001, 0.5));
+      ->check(inRange(0.0001, 0.5));
   command->add_option("--metric", o->metric, "total (default) or time_s")
-      ->check(CLI::IsMember({"total", "time_s"}));
-  command->add_option("--seed", o->drawn.seed, "Random seed (default 1)");
+      ->check(oneOf({"total", "time_s"}));
+  command->add_option("--seed", o->drawn.seed, "Random seed (default 1)")->check(atLeastZero());
   command->footer("Example:\n  palpa study plan --subjects 12 --simulate 2000");
   command->callback([o] { planStudy(*o); });
 }

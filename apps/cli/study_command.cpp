@@ -4,6 +4,7 @@
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/values.h"
 #include "apps/record/store/record_store.h"
 #include "apps/study/run/study_run.h"
 
@@ -43,7 +44,10 @@ void run(study::StudyOptions o) {
 }
 
 void addProtocol(CLI::App& command, study::StudyOptions& o) {
-  command.add_option("--protocol", o.protocol, "Protocol file")->required()->type_name("FILE");
+  command.add_option("--protocol", o.protocol, "Protocol file")
+      ->required()
+      ->type_name("FILE")
+      ->check(somethingThere("protocols"));
   addRecordsArgument(command, o.url);
 }
 
@@ -63,19 +67,21 @@ void addRun(CLI::App& study) {
       ->add_option("--seed", o->seed,
                    "Seed of the study, if it begins with this trainee (default: drawn and kept in "
                    "the records; 1 for virtual trainees)")
-      ->check(CLI::PositiveNumber);
+      ->check(moreThanZero());
   CLI::Option* simulate =
       command
           ->add_option(
               "--simulate", o->subjects,
               "Number of virtual trainees in each group (default: as in the learners' file)")
           ->expected(0, 1)
-          ->check(CLI::Range(0, 1000));
-  command->add_option("--learning", o->learners, "How virtual trainees learn")->type_name("FILE");
+          ->check(inRange(0, 1000));
+  command->add_option("--learning", o->learners, "How virtual trainees learn")
+      ->type_name("FILE")
+      ->check(somethingThere("protocols/learners"));
   command
       ->add_option("--workers", o->workers,
                    "Processes for virtual trainees (default 2); changes no result")
-      ->check(CLI::Range(1, 64));
+      ->check(inRange(1, 64));
   addPlaceArguments(*command, o->session);
   command->callback([o, simulate] {
     o->simulate = simulate->count() > 0;

@@ -14,7 +14,7 @@
 #include "anatomy/patient/patient_file.h"
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/needle_metrics.h"
-#include "apps/record/trial_walk.h"
+#include "apps/record/session_file.h"
 #include "apps/training/trial_words.h"
 #include "haptics/loop/tick.h"
 

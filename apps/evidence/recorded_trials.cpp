@@ -8,7 +8,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
-#include "apps/record/trial_walk.h"
+#include "apps/record/session_file.h"
 #include "apps/training/engine.h"
 #include "apps/training/trial_words.h"
 

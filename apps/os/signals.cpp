@@ -21,6 +21,7 @@ int notes = 0;  // alive, one within another
 struct sigaction old_actions[std::size(kSignals)], old_pipe;
 
 void note(int) { interrupted.store(true); }
+void passOver(int) {}
 
 struct sigaction actionOf(const NotedSignal& signal, InterruptNote::Again again) {
   struct sigaction action {};
@@ -32,6 +33,13 @@ struct sigaction actionOf(const NotedSignal& signal, InterruptNote::Again again)
 }
 
 }  // namespace
+
+void letLargeFilesFail() {
+  struct sigaction action {};
+  action.sa_handler = passOver;  // not ignored: programs that are started would inherit that
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGXFSZ, &action, nullptr);
+}
 
 InterruptNote::InterruptNote(Again again) {
   if (notes++ > 0) return;

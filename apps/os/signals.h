@@ -2,6 +2,10 @@
 
 namespace palpa::os {
 
+/// From now on a write past the limit of a file's size fails, as one on a full disk does, instead
+/// of ending the program.
+void letLargeFilesFail();
+
 /// While it lives, Ctrl-C and what else asks a program to end (SIGTERM, SIGQUIT, SIGUSR1, SIGUSR2,
 /// SIGHUP: its terminal is gone) is noted instead of ending it, and a reader of its output who has
 /// gone away (SIGPIPE) does not end it either: writing there fails, and nothing more. Of SIGHUP,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/report/needle/session_report.h"
+#include "apps/runtime/flight_sink.h"
 #include "apps/session/session_frame.h"
 #include "apps/station/material_files.h"
 #include "apps/station/task_sections.h"
@@ -40,5 +41,9 @@ report::SubtaskSection partsOf(const station::NamedPlan& plan, const Trials& tri
   }
   return section;
 }
+
+/// What an event means for the learner: "good", "guide", "bad", "neutral"; "note" of somebody's
+/// note. What was touched or pierced is told by its words, the rest by its kind.
+std::string toneOfEvent(const runtime::Event& event);
 
 }  // namespace palpa::session

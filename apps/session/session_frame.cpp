@@ -3,7 +3,7 @@
 #include "anatomy/base/uuid.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/recorders.h"
-#include "apps/session/event_tone.h"
+#include "apps/session/session_facts.h"
 #include "apps/session/session_igtl.h"
 #include "apps/session/session_records.h"
 #include "apps/session/session_watch.h"

@@ -17,6 +17,7 @@ constexpr record::Patience kBriefly{2, 300'000'000};  // a person waits
 void checkTrainee(SessionOptions& o) {
   if (o.records.empty()) return;
   o.records = evidence::absoluteRecords(o.records);
+  record::PendingList::usualFolder();  // without one it is said now, not once the session is on
   try {
     record::RecordStore store(o.records);
     if (const auto trainee = store.trainee(o.trainee)) {

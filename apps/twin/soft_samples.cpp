@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/nearest_word.h"
 #include "anatomy/base/units.h"
 #include "apps/station/assets.h"
 #include "apps/twin/bench_truth.h"
@@ -30,10 +31,14 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
                                 : std::find_if(samples.begin(), samples.end(),
                                                [&](const Phantom& p) { return p.name == name; });
   if (one == samples.end()) {
-    std::string known;
-    for (const Phantom& p : samples) known += (known.empty() ? "" : ", ") + p.name;
-    throw UsageError("is not one of the simulated samples", "\"" + name + "\"",
-                     "Known are " + known);
+    std::vector<std::string> known;
+    std::string all;
+    for (const Phantom& p : samples) {
+      known.push_back(p.name);
+      all += (all.empty() ? "" : ", ") + p.name;
+    }
+    throw UsageError("is not one of the simulated samples" + didYouMean(name, known),
+                     "\"" + name + "\"", "Known are " + all);
   }
   if (std::abs(one->table.tool_radius - radius_) > 1e-6)
     station.file.refuse("sample/tip_radius_mm", "is not that of the simulated samples");

@@ -219,7 +219,8 @@ TEST_F(CameraFile, AFailedWriteLeavesTheOldFileAlone) {
   EXPECT_THROW(writeCameraModel(camera, folder_ / "no_such_folder" / "camera.json"), Error);
   fs::create_directory(folder_ / "taken.json");
   EXPECT_THROW(writeCameraModel(camera, folder_ / "taken.json"), Error);
-  EXPECT_FALSE(fs::exists(folder_ / "taken.json.part"));
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
 }
 
 TEST(RealCamera, IntrinsicsOfTheChessboardPictures) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "tests/support/setting.h"
 
 /// Missing and damaged files: code 1 or 2, one line that names the file, nothing half-written.
 namespace palpa::cli_test {
@@ -129,6 +130,23 @@ TEST_F(BadInput, PlacesThatCannotBeWritten) {
   expectRefused({"board", "print", "--out", "/proc/b.png"}, "/proc/b.png", 1);
   expectRefused({"board", "print", "--out", "board.nonsense"}, "board.nonsense", 1);
   EXPECT_EQ(contentOf(in_the_way), "a file") << "it was not touched";
+}
+
+/// A limit of the size of files ends no program: it is told, as a full disk is.
+TEST_F(BadInput, FilesThatMayNotBecomeSoLarge) {
+  const test::Setting limit("PALPA_TEST_FILE_LIMIT", "20000");
+  const Outcome outcome = palpa({"patient", "build", "--out", "p.glb"}, here.path());
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "palpa: p.glb: cannot be written")) << outcome.err;
+}
+
+/// Before, within and after a command.
+TEST_F(BadInput, VerboseStandsAnywhere) {
+  for (const Arguments& words : {Arguments{"--verbose", "board", "print", "--dpi", "5"},
+                                 {"board", "--verbose", "print", "--dpi", "5"},
+                                 {"board", "print", "--dpi", "5", "--verbose"}})
+    expectRefused(words, "--dpi needs a whole number between 72 and 1200, not '5'");
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ TEST(BonePin, TheCueIsGivenAtTheTransition) {
 
 TEST(BonePin, ABlockIsNoPatient) {
   const Folder here;
+  here.file("path.json", "{}");
   for (const std::vector<std::string>& option : {std::vector<std::string>{"--patient-seed", "3"},
                                                  {"--guide", "on"},
                                                  {"--expert-path", "path.json"}}) {

@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,6 +37,15 @@ void keepApart(const fs::path& folder) {
   if (const char* temporary = std::getenv("PALPA_TEST_TMPDIR")) ::setenv("TMPDIR", temporary, 1);
 }
 
+/// A test that means the program's files to end at some size names it in PALPA_TEST_FILE_LIMIT.
+void limitFiles() {
+  const char* bytes = std::getenv("PALPA_TEST_FILE_LIMIT");
+  if (!bytes) return;
+  const rlim_t most = std::strtoul(bytes, nullptr, 10);
+  const rlimit limit{most, most};
+  if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
+}
+
 [[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,
                          const fs::path& out, const fs::path& err, int fill) {
   // Fresh memory holds another byte in every run: what is read before it is written then differs.
@@ -48,6 +58,7 @@ void keepApart(const fs::path& folder) {
   if (::chdir(folder.c_str()) != 0) ::_exit(126);
   ::unsetenv("DISPLAY");
   keepApart(folder);
+  limitFiles();
   arguments.insert(arguments.begin(), PALPA_PROGRAM);
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());

@@ -108,7 +108,8 @@ TEST_F(Study, WrongUsageIsNamed) {
   complains({"--trainee", "T001", "--learning", "x.json"}, "goes with --simulate only");
   complains({"--trainee", "T001", "--simulate", "2"}, "exclude each other");
   complains({"--trainee", "Dr. Smith"}, "pseudonym");
-  complains({"--simulate", "2", "--learning", "none.json"}, "cannot be read");
+  complains({"--simulate", "2", "--learning", "none.json"},
+            "--learning needs a file that is there, not 'none.json'");
 }
 
 }  // namespace

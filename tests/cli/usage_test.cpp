@@ -65,7 +65,7 @@ TEST(Usage, GroupsListTheirCommands) {
     const Outcome outcome = palpa({group, "--help"}, here.path());
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.out.find(command), std::string::npos) << group;
-    expectWrongUsage({group}, "subcommand");
+    expectWrongUsage({group}, command);
   }
 }
 
@@ -81,7 +81,7 @@ TEST(Usage, UnknownWordsAreRefused) {
   expectWrongUsage({"--sed", "1"}, "--sed");
   expectWrongUsage(session({"--sed", "1"}), "--sed");
   expectWrongUsage(session({"left"}), "left");
-  expectWrongUsage({"board", "paint"}, "subcommand");
+  expectWrongUsage({"board", "paint"}, "There is print");
 }
 
 TEST(Usage, ValuesOutsideTheirKindAreRefused) {

@@ -1,13 +1,18 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <string>
 
 #include "apps/os/child_process.h"
 #include "apps/os/signals.h"
 #include "apps/os/system_time.h"
 #include "apps/os/worker_processes.h"
+#include "tests/support/scratch_folder.h"
 
 namespace palpa::os {
 namespace {
@@ -130,6 +135,21 @@ TEST(SystemTime, GoesOnAndSleepsUntilThen) {
 TEST(Program, OneThatIsNotInstalledIsNotStarted) {
   EXPECT_FALSE(startProgram("palpa-no-such-program", {}));
   EXPECT_GT(processNumber(), 1);
+}
+
+/// In a process of its own: the limit stays.
+TEST(Signals, AFilePastItsLimitFailsInPlaceOfEndingTheProgram) {
+  const test::ScratchFolder folder("os-limit");
+  const auto written = [&] {
+    const rlimit limit{1000, 1000};
+    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(3);
+    letLargeFilesFail();
+    const int file = ::open((folder / "a").c_str(), O_WRONLY | O_CREAT, 0600);
+    const std::string much(1000, 'x');
+    if (::write(file, much.data(), much.size()) != 1000) ::_exit(4);
+    ::_exit(::write(file, much.data(), 1) < 0 && errno == EFBIG ? 0 : 5);
+  };
+  EXPECT_EXIT(written(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

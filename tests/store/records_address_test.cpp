@@ -7,7 +7,7 @@
 namespace palpa::record {
 namespace {
 
-std::string refusalOf(const std::string& address) {
+std::string whyRefused(const std::string& address) {
   try {
     requireAddress(address);
   } catch (const UsageError& e) {
@@ -21,7 +21,7 @@ TEST(RecordsAddress, FilesAndServersPass) {
        {"/home/me/records.sqlite", "records.sqlite", "runs/rate=0.1/records.sqlite",
         "the host of the course.sqlite", "postgresql://me@host/db", "postgres://host/db",
         "postgresql:///db?host=/run/postgresql", "postgresql://h/db?passfile=/home/me/pass"})
-    EXPECT_EQ(refusalOf(address), "") << address;
+    EXPECT_EQ(whyRefused(address), "") << address;
 }
 
 TEST(RecordsAddress, SettingsAsWordsAndOtherSchemesAreRefusedWithoutTheirSecret) {
@@ -30,11 +30,11 @@ TEST(RecordsAddress, SettingsAsWordsAndOtherSchemesAreRefusedWithoutTheirSecret)
         "  user=me password=geheim", "mysql://me:geheim@host/db", "http://geheim",
         "geheim stuff://x", "postgresql://me:geheim@host/db", "postgresql://h/db?password=geheim",
         "postgresql://h/db?%70assword=geheim", "postgresql://h/db?x=y&sslpassword=geheim"}) {
-    const std::string refusal = refusalOf(address);
+    const std::string refusal = whyRefused(address);
     EXPECT_NE(refusal, "") << address;
     EXPECT_EQ(refusal.find("geheim"), std::string::npos) << refusal;
   }
-  EXPECT_NE(refusalOf("mysql://h/db").find("mysql://"), std::string::npos);
+  EXPECT_NE(whyRefused("mysql://h/db").find("mysql://"), std::string::npos);
 }
 
 constexpr char kFull[] = "sslmode=verify-full";
