@@ -18,7 +18,7 @@ bool isPinned(const std::string& path) {
   };
   return within({"haptics/", "anatomy/geometry/", "anatomy/query/", "anatomy/shapes/",
                  "anatomy/patient", "anatomy/base/random.h", "calibration/expert_path",
-                 "calibration/teaching_line", "apps/assess/", "apps/task_", "apps/evidence/"}) &&
+                 "apps/assess/", "apps/task_", "apps/evidence/"}) &&
          !within({"haptics/devices/", "apps/assess/statistics/"});
 }
 
