@@ -73,6 +73,26 @@ void removeForgotten(const fs::path& file) {
   }
 }
 
+struct Claimed {
+  fs::path name;
+  int descriptor = -1;  ///< -1: errno says why not
+};
+
+/// A new file ".NAME.part-PID-N", and `ending`.
+Claimed claim(const fs::path& file, const std::string& ending, mode_t mode) {
+  static std::atomic<unsigned> count{0};
+  constexpr int kTries = 100;
+  const std::string begins = besideBegins(file) + std::to_string(::getpid()) + "-";
+  Claimed claimed;
+  for (int tries = 0; claimed.descriptor < 0 && tries < kTries; ++tries) {
+    claimed.name = folderOf(file) / (begins + std::to_string(++count) + ending);
+    claimed.descriptor =
+        ::open(claimed.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    if (claimed.descriptor < 0 && errno != EEXIST) break;
+  }
+  return claimed;
+}
+
 }  // namespace
 
 WholeFile::WholeFile(const fs::path& file, Lasts lasts) : file_(file), lasts_(lasts) {
@@ -91,16 +111,17 @@ WholeFile::WholeFile(const fs::path& file, Lasts lasts) : file_(file), lasts_(la
 WholeFile::~WholeFile() { discard(); }
 
 void WholeFile::open() {
-  static std::atomic<unsigned> count{0};
-  constexpr int kTries = 100;
-  const std::string begins = besideBegins(file_) + std::to_string(::getpid()) + "-";
-  for (int tries = 0; descriptor_ < 0 && tries < kTries; ++tries) {
-    beside_ = folderOf(file_) / (begins + std::to_string(++count));
-    descriptor_ =
-        ::open(beside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (descriptor_ < 0 && errno != EEXIST) break;
-  }
+  Claimed claimed = claim(file_, "", 0666);
+  beside_ = std::move(claimed.name);
+  descriptor_ = claimed.descriptor;
   if (descriptor_ < 0) fail(errno);
+}
+
+fs::path claimedBeside(const fs::path& file) {
+  const Claimed claimed = claim(file, file.extension().string(), 0600);
+  if (claimed.descriptor < 0) failFile("cannot be written", file, errno);
+  ::close(claimed.descriptor);
+  return claimed.name;
 }
 
 void WholeFile::write(std::string_view text) {

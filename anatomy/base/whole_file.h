@@ -42,6 +42,10 @@ class WholeFile {
 void writeWhole(const std::filesystem::path& file, std::string_view content,
                 Lasts lasts = Lasts::yes);
 
+/// An empty file beside `file`, for a writer that opens it by its name: hidden, of the same ending,
+/// and new. Whoever asked renames or removes it. Throws Error.
+std::filesystem::path claimedBeside(const std::filesystem::path& file);
+
 /// What a command writes belongs together: the files that were not there before, written by
 /// WholeFile while this lives, are gone again at its end, unless they are kept. One at a time; a
 /// second one within does nothing of its own.

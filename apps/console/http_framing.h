@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "apps/console/guard.h"
-#include "apps/console/http.h"
+#include "apps/console/httplib_server.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {

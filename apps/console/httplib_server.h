@@ -1,10 +1,11 @@
 #pragma once
 
+#include <httplib.h>
+#undef _res  // a macro of <resolv.h>, a name in Eigen
+
 #include <functional>
 #include <string>
 #include <utility>
-
-#include "apps/console/http.h"
 
 /// What cpp-httplib 0.18 (Debian 13) calls otherwise than 0.11 (Debian 12). Its version is a text,
 /// which no #if can read: the signatures themselves are asked.

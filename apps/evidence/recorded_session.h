@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "anatomy/query/surface_query.h"
@@ -12,7 +13,6 @@
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/assess/needle/trial_sampler.h"
-#include "apps/evidence/likeness.h"
 #include "apps/record/session_file.h"
 #include "apps/task_needle/task_file.h"
 #include "calibration/expert_path.h"
@@ -73,6 +73,25 @@ struct RecordedNeedle {
 };
 /// Every trial of a session, from the evidence alone, in one pass. Throws Error.
 std::vector<RecordedNeedle> recordedNeedles(const RecordedSession& session);
+
+/// How a record compares with what is computed again from it. Another processor's or an older
+/// version's arithmetic moves last bits; who changes a record moves more.
+enum class Likeness {
+  same_bits,
+  rounding,  ///< every number within kRounding, everything else equal
+  changed
+};
+
+/// Of numbers: of their size, or absolute below 1.
+inline constexpr double kRounding = 1e-9;
+
+/// Not a number is like itself.
+Likeness likeness(double recorded, double again);
+/// Of two JSON texts: numbers as above, everything else equal or not. Throws Error for a text that
+/// is no JSON.
+Likeness likenessOfJson(const std::string& recorded, const std::string& again);
+
+inline Likeness worse(Likeness a, Likeness b) { return a < b ? b : a; }
 
 /// Outcome of running every recorded tick again.
 struct ReplayCheck {

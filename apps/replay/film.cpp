@@ -1,31 +1,12 @@
 #include "apps/replay/film.h"
 
-#include <cerrno>
-
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/os/child_process.h"
-#include "apps/os/file_access.h"
 
 namespace palpa::replay {
 namespace {
-
-/// A name that nobody has, of the same ending, by which the writer knows the kind.
-std::filesystem::path besideOf(const std::filesystem::path& file) {
-  constexpr int kTries = 100;
-  for (int tries = 1; tries <= kTries; ++tries) {
-    std::filesystem::path beside =
-        file.parent_path() /
-        ("." + file.stem().string() + ".part-" + std::to_string(os::processNumber()) + "-" +
-         std::to_string(tries) + file.extension().string());
-    const std::error_code problem = os::createNew(beside);
-    if (!problem) return beside;
-    if (problem != std::errc::file_exists) failFile("cannot be written", file, problem);
-  }
-  failFile("cannot be written", file, EEXIST);
-}
 
 int countedFrames(const std::filesystem::path& file) {
   const std::unique_ptr<cv::VideoCapture> again = ar::makeVideoCapture();
@@ -46,7 +27,7 @@ int codecOf(const std::filesystem::path& file) {
 
 Film::Film(const std::filesystem::path& file, double frames_per_second, int width, int height)
     : file_(file),
-      beside_(besideOf(file)),
+      beside_(claimedBeside(file)),
       writer_(ar::makeVideoWriter()),
       width_(width),
       height_(height) {

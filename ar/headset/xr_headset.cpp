@@ -116,9 +116,9 @@ class XrHeadset final : public Headset {
   /// Whether the runtime's thread has done what it was given; waits for it, but not for one that is
   /// silent.
   bool answered() {
-    const auto left = patience_.silent - thread_.busyFor();
+    const auto left = patience_.silent - thread_.waitedInVain();
     if (!thread_.wait(silent_ ? left.zero() : std::min(patience_.frame, left))) {
-      if (!silent_ && thread_.busyFor() >= patience_.silent) {
+      if (!silent_ && thread_.waitedInVain() >= patience_.silent) {
         silent_ = true;
         ++silences_;
       }

@@ -8,12 +8,11 @@
 namespace palpa::ar {
 
 struct XrThread::Shared {
-  using Clock = std::chrono::steady_clock;
   std::mutex mutex;
   std::condition_variable changed;
   std::function<void()> step;
   bool busy = false, over = false;
-  Clock::time_point since;
+  Duration waited{0};  ///< in vain, for this step
 
   void run() {
     std::unique_lock lock(mutex);
@@ -51,7 +50,7 @@ XrThread::~XrThread() {
 void XrThread::start(std::function<void()> step) {
   const std::lock_guard lock(shared_->mutex);
   shared_->step = std::move(step);
-  shared_->since = Shared::Clock::now();
+  shared_->waited = Duration::zero();
   shared_->busy = true;
   shared_->changed.notify_all();
 }
@@ -60,13 +59,14 @@ bool XrThread::wait(Duration longest) {
   std::unique_lock lock(shared_->mutex);
   const auto ended = [this] { return !shared_->busy; };
   if (longest <= Duration::zero()) return ended();
-  return shared_->changed.wait_for(lock, longest, ended);
+  if (shared_->changed.wait_for(lock, longest, ended)) return true;
+  shared_->waited += longest;
+  return false;
 }
 
-XrThread::Duration XrThread::busyFor() {
+XrThread::Duration XrThread::waitedInVain() {
   const std::lock_guard lock(shared_->mutex);
-  if (!shared_->busy) return Duration::zero();
-  return std::chrono::ceil<Duration>(Shared::Clock::now() - shared_->since);
+  return shared_->busy ? shared_->waited : Duration::zero();
 }
 
 }  // namespace palpa::ar

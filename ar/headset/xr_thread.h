@@ -21,7 +21,7 @@ class XrThread {
   void start(std::function<void()> step);
   bool wait(Duration longest);  ///< whether the step has ended
   bool busy() { return !wait(Duration::zero()); }
-  Duration busyFor();  ///< since the step was started; zero: it has ended
+  Duration waitedInVain();  ///< for this step, in all; zero: it has ended
 
  private:
   struct Shared;

@@ -15,7 +15,7 @@
 #include "anatomy/base/error.h"
 #include "apps/console/console.h"
 #include "apps/console/guard.h"
-#include "apps/console/http.h"
+#include "apps/console/httplib_server.h"
 #include "apps/console/web_server.h"
 #include "apps/runtime/clock.h"
 #include "apps/trial/trial_status.h"

@@ -126,7 +126,10 @@ TEST(StopSwitch, TheTickOfThePressHasNoForceAlreadyAndOnlyReArmingBringsItBack) 
     renew(loop.bus, now, static_cast<std::uint64_t>(1000 + i));
     loop.haptic.step(now);
   }
-  EXPECT_GT(unpack(loop.recorded().back().f_command_D).norm(), 0.1);
+  const haptics::FlightRecord last = loop.recorded().back();
+  EXPECT_GT(unpack(last.f_command_D).norm(), 0.1)
+      << whyText(last.safety) << " " << unpack(last.f_contact_D).transpose() << " phase "
+      << static_cast<int>(last.phase) << " armed " << int(last.commands.armed);
 }
 
 /// Every other thread of a session hangs in a call; the loop does not notice.

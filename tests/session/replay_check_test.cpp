@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 
-#include "apps/evidence/likeness.h"
 #include "apps/evidence/recorded_session.h"
 #include "haptics/loop/tick.h"
 #include "tests/haptics/needle_bench.h"
