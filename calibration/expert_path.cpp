@@ -5,6 +5,7 @@
 #include <map>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/pinned_math.h"
 #include "anatomy/base/quantile.h"
 #include "calibration/rotation.h"
 
@@ -19,7 +20,7 @@ constexpr double kLeastAcceptable_rad = 2 * kDegree, kLeastAcceptable_m = 0.001;
 constexpr double kShortestLine = 0.002;  // m
 constexpr const char* kWhere = "experts' trials";
 
-double angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double angle(const Vec3& a, const Vec3& b) { return pinned::atan2(a.cross(b).norm(), a.dot(b)); }
 double distance(const Vec3& a, const Vec3& b) { return (a - b).norm(); }
 
 /// A trial in the axes of its own body's teaching line.
@@ -163,7 +164,7 @@ Vec3 meanOf(const Trials& trials, Get get) {
 template <class Deviation>
 double spread(const Trials& trials, int dimensions, Deviation deviation) {
   double sum = 0;
-  for (const OwnTrial& trial : trials) sum += std::pow(deviation(trial), 2);
+  for (const OwnTrial& trial : trials) sum += pinned::pow(deviation(trial), 2);
   return std::sqrt(sum / static_cast<double>(trials.size()) / dimensions);
 }
 
@@ -215,8 +216,8 @@ void fitSpreads(const Trials& own, ExpertPath* path) {
   path->direction_sd =
       spread(own, 2, [&](const OwnTrial& t) { return angle(t.direction, path->direction); });
   path->line_sd = spread(own, 4, [&](const OwnTrial& t) {
-    return std::hypot(fromLine(t.start - path->line_from, Vec3::UnitX()),
-                      fromLine(t.end - path->line_to, Vec3::UnitX()));
+    return pinned::hypot(fromLine(t.start - path->line_from, Vec3::UnitX()),
+                         fromLine(t.end - path->line_to, Vec3::UnitX()));
   });
   path->entry_acceptable = std::max(2 * path->entry_sd, kLeastAcceptable_m);
   path->depth_acceptable = std::max(2 * path->depth_sd, kLeastAcceptable_m);
@@ -262,6 +263,25 @@ TaughtPath ExpertPath::onBody(const TeachingLine& line) const {
   taught.line_from_L = from_L + places * line_from;
   taught.line_to_L = to_L + places * line_to;
   return taught;
+}
+
+namespace {
+
+constexpr double kShortest = 0.005;  // m
+const double kParallel = pinned::sin(2 * kDegree);
+
+}  // namespace
+
+Mat3 axesOf(const TeachingLine& line, double depth) {
+  const Vec3 way_L = line.target_L - line.entry_L - depth * line.inward_L;
+  const Vec3 along_L = way_L.normalized();
+  const Vec3 across_L = line.inward_L - line.inward_L.dot(along_L) * along_L;
+  if (!(way_L.norm() >= kShortest) || !(across_L.norm() >= kParallel))
+    throw Error("the way from the entry to the vein is too short or runs along the skin's normal",
+                "teaching line", "Check the landmarks entry_point and vein_target");
+  Mat3 axes;
+  axes << along_L, across_L.normalized(), along_L.cross(across_L.normalized());
+  return axes;
 }
 
 }  // namespace palpa::calibration

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa {
 
 /// What SplitMix64 (Steele, Lea, Flood 2014) adds to its state for each number.
@@ -37,15 +39,15 @@ class RandomStream {
   double uniform() { return fraction(0); }  ///< in [0, 1), 53 bits
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   double normal() {  ///< standard normal (Box and Muller 1958)
-    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-    return radius * std::cos(2 * std::numbers::pi * uniform());
+    const double radius = std::sqrt(-2 * pinned::log(1 - uniform()));
+    return radius * pinned::cos(2 * std::numbers::pi * uniform());
   }
   double normal(double mean, double sd) { return mean + sd * normal(); }
 
   double openUniform() { return fraction(0.5); }  ///< in (0, 1)
   double openNormal() {
-    const double radius = std::sqrt(-2 * std::log(openUniform()));
-    return radius * std::cos(2 * std::numbers::pi * openUniform());
+    const double radius = std::sqrt(-2 * pinned::log(openUniform()));
+    return radius * pinned::cos(2 * std::numbers::pi * openUniform());
   }
 
  private:

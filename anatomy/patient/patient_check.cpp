@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/pinned_math.h"
 #include "anatomy/query/surface_query.h"
 #include "anatomy/shapes/mesh_tools.h"
 
@@ -68,7 +69,7 @@ class Checker {
     const SurfacePoint skin = query_.closest(skin_, entry_);
     report("entry point off the skin", 1e3 * std::abs(skin.distance), "mm",
            std::abs(skin.distance) < 1e-3, "below 1");
-    const double angle = std::asin(-direction.dot(skin.n_A)) * 180 / std::numbers::pi;
+    const double angle = pinned::asin(-direction.dot(skin.n_A)) * 180 / std::numbers::pi;
     report("needle to skin", angle, "deg", angle > 10 && angle <= 30, "10 to 30");
     report("entry to vein target", 1e3 * way.norm(), "mm", way.norm() <= 0.060, "at most 60");
     const double medial = patient_.side == Side::right ? direction.x() : -direction.x();
@@ -86,7 +87,7 @@ class Checker {
   void checkArm() {
     const Vec3 chord =
         patient_.landmark(landmark::kAcromialEnd) - patient_.landmark(landmark::kSternalEnd);
-    const double rise = std::asin(chord.normalized().z()) * 180 / std::numbers::pi;
+    const double rise = pinned::asin(chord.normalized().z()) * 180 / std::numbers::pi;
     report("clavicle's rise toward the shoulder", rise, "deg", std::abs(rise) <= kArmAtRest,
            "-40 to 40");
   }
@@ -147,7 +148,7 @@ class Checker {
     double sum = 0;
     for (int i = 0; i < kChords; ++i) {
       const double angle = std::numbers::pi * i / kChords;
-      const Vec3 across = R * Vec3(std::cos(angle), std::sin(angle), 0);
+      const Vec3 across = R * Vec3(pinned::cos(angle), pinned::sin(angle), 0);
       for (const double sign : {-1.0, 1.0})
         for (const RayHit& hit : query_.cast(target_, sign * across, 0.030))
           if (hit.surface == vein_) {

@@ -7,7 +7,6 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "anatomy/patient/gltf.h"
-#include "anatomy/patient/gltf_picture.h"
 #include "anatomy/patient/patient_file.h"
 
 namespace palpa::anatomy {

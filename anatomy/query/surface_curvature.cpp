@@ -2,7 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <array>
-#include <cmath>
+
+#include "anatomy/base/pinned_math.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -59,12 +60,12 @@ std::vector<ShapeOperator> vertexShapeOperators(const TriangleMesh& mesh) {
 PrincipalCurvatures principalCurvatures(const ShapeOperator& S, const Vec3& n) {
   const Vec3 x = n.unitOrthogonal(), y = n.cross(x);
   const double e = x.dot(S * x), f = x.dot(S * y), g = y.dot(S * y);
-  const double mean = (e + g) / 2, half = (e - g) / 2, spread = std::hypot(half, f);
-  const double angle = spread > 0 ? std::atan2(f, half) / 2 : 0;
+  const double mean = (e + g) / 2, half = (e - g) / 2, spread = pinned::hypot(half, f);
+  const double angle = spread > 0 ? pinned::atan2(f, half) / 2 : 0;
   PrincipalCurvatures k;
   k.k1 = mean + spread;
   k.k2 = mean - spread;
-  k.d1 = std::cos(angle) * x + std::sin(angle) * y;
+  k.d1 = pinned::cos(angle) * x + pinned::sin(angle) * y;
   k.d2 = n.cross(k.d1);
   return k;
 }

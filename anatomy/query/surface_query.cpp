@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/pinned_math.h"
 #include "anatomy/query/needle_passes.h"
 #include "anatomy/query/primitive_fit.h"
 #include "anatomy/query/triangle_tree.h"
@@ -239,15 +240,15 @@ SurfacePatch fitSurfacePatch(const SurfaceQuery& query, int surface, const Vec3&
     for (int k = 0; k < kPerRing * ring; ++k) {
       const double turn = 2 * std::numbers::pi * (k + 0.5 * (ring % 2)) / (kPerRing * ring);
       const double out = reach * ring / kRings;
-      samples.add(
-          query.rounded(surface, centre.p_A + out * (std::cos(turn) * x + std::sin(turn) * y)));
+      samples.add(query.rounded(
+          surface, centre.p_A + out * (pinned::cos(turn) * x + pinned::sin(turn) * y)));
     }
   if (samples.count() < kEnough) return patch;
   const Terms fitted = samples.solve();
   if (!fitted.allFinite()) return patch;
   static constexpr int kDegree[SurfacePatch::kTerms] = {0, 1, 1, 2, 2, 2, 3, 3, 3, 3};
   for (int i = 0; i < SurfacePatch::kTerms; ++i)
-    patch.c[i] = fitted[i] * std::pow(reach, 1 - kDegree[i]);
+    patch.c[i] = fitted[i] * pinned::pow(reach, 1 - kDegree[i]);
   return patch;
 }
 

@@ -1,8 +1,8 @@
 #include "anatomy/query/triangle_tree_build.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "anatomy/base/pinned_math.h"
 #include "anatomy/query/triangle_tree.h"
 
 namespace palpa::anatomy {
@@ -194,7 +194,7 @@ namespace {
 
 double cornerAngle(const Vec3& corner, const Vec3& p, const Vec3& q) {
   const Vec3 u = p - corner, v = q - corner;
-  return std::atan2(u.cross(v).norm(), u.dot(v));
+  return pinned::atan2(u.cross(v).norm(), u.dot(v));
 }
 
 /// A triangle's edge, so that the same edge of its neighbours sorts beside it.

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
 
+#include "anatomy/base/pinned_math.h"
 #include "anatomy/geometry/pose.h"
 #include "anatomy/patient.h"
 
@@ -18,7 +18,7 @@ double smoothMin(double a, double b, double k);
 double smoothMax(double a, double b, double k);
 
 /// From 0 to 1 about x = 0, half of it within 0.55 `width`.
-inline double softStep(double x, double width) { return 0.5 * (1 + std::tanh(x / width)); }
+inline double softStep(double x, double width) { return 0.5 * (1 + pinned::tanh(x / width)); }
 
 /// A point of a tube's middle line with the radius there, m.
 struct TubeStation {

@@ -1,8 +1,9 @@
 #include "anatomy/shapes/mesh_tools.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
+
+#include "anatomy/base/pinned_math.h"
 
 namespace palpa::anatomy {
 
@@ -91,8 +92,8 @@ void addRing(const Section& s, int around, TriangleMesh* mesh) {
   const Vec3 side = s.tangent.cross(s.up);
   for (int k = 0; k < around; ++k) {
     const double angle = 2 * std::numbers::pi * k / around;
-    mesh->points.push_back(s.centre + s.half_up * std::cos(angle) * s.up +
-                           s.half_side * std::sin(angle) * side);
+    mesh->points.push_back(s.centre + s.half_up * pinned::cos(angle) * s.up +
+                           s.half_side * pinned::sin(angle) * side);
   }
 }
 
@@ -100,9 +101,9 @@ void addRing(const Section& s, int around, TriangleMesh* mesh) {
 Section capped(const Section& end, double phi, double bulge, double sign) {
   Section s = end;
   const double reach = bulge * (end.half_up + end.half_side) / 2;
-  s.centre += sign * reach * std::sin(phi) * end.tangent;
-  s.half_up *= std::cos(phi);
-  s.half_side *= std::cos(phi);
+  s.centre += sign * reach * pinned::sin(phi) * end.tangent;
+  s.half_up *= pinned::cos(phi);
+  s.half_side *= pinned::cos(phi);
   return s;
 }
 

@@ -9,7 +9,6 @@
 #include "anatomy/query/skin_dimple.h"
 #include "anatomy/query/surface_query.h"
 #include "apps/bench/bench_patients.h"
-#include "apps/bench/metric.h"
 #include "apps/bench/point_locators.h"
 #include "apps/bench/timing.h"
 #include "apps/runtime/clock.h"

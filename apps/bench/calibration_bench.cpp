@@ -7,7 +7,7 @@
 #include "apps/bench/bench.h"
 #include "apps/bench/estimate_check.h"
 #include "apps/bench/estimator_studies.h"
-#include "apps/bench/metric.h"
+#include "apps/bench/timing.h"
 
 namespace palpa::bench {
 

@@ -4,9 +4,9 @@
 #include "anatomy/base/quantile.h"
 #include "apps/bench/bench.h"
 #include "apps/bench/bench_patients.h"
-#include "apps/bench/metric.h"
 #include "apps/bench/search_floor.h"
 #include "apps/bench/stroke.h"
+#include "apps/bench/timing.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::bench {

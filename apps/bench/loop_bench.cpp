@@ -8,7 +8,6 @@
 #include "anatomy/base/error.h"
 #include "apps/bench/bench_patients.h"
 #include "apps/bench/loop_segment.h"
-#include "apps/bench/metric.h"
 #include "apps/bench/timing.h"
 
 namespace palpa::bench {

@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/bench_patients.h"
-#include "apps/bench/metric.h"
 #include "apps/bench/timing.h"
 #include "apps/bench/tracking_scene.h"
 #include "ar/tracking/board_tracker.h"

@@ -6,7 +6,7 @@
 
 #include "anatomy/base/quantile.h"
 #include "apps/bench/bench_patients.h"
-#include "apps/bench/metric.h"
+#include "apps/bench/timing.h"
 #include "apps/runtime/clock.h"
 #include "apps/runtime/executive.h"
 #include "apps/runtime/geometry_activity.h"

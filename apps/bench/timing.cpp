@@ -1,7 +1,9 @@
 #include "apps/bench/timing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 
 #include "anatomy/base/quantile.h"
 #include "anatomy/base/random.h"
@@ -89,6 +91,20 @@ Ratio compareQueries(int blocks, int count, const std::function<void(int)>& a,
     took_a = took_b = 0;
   }
   return {median(ratios), bootstrapMedian(ratios, kTimingResamples, 1)};
+}
+
+void print(const std::string& metric, double value, const std::string& unit,
+           const nlohmann::json& params) {
+  nlohmann::ordered_json line;
+  line["metric"] = metric;
+  if (std::isfinite(value))
+    line["value"] = value;
+  else
+    line["value"] = nullptr;
+  line["unit"] = unit;
+  line["params"] = params;
+  std::printf("%s\n", line.dump().c_str());
+  std::fflush(stdout);
 }
 
 }  // namespace palpa::bench

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 namespace palpa::bench {
@@ -38,5 +40,9 @@ struct Ratio {
 /// block, their median.
 Ratio compareQueries(int blocks, int count, const std::function<void(int)>& a,
                      const std::function<void(int)>& b);
+
+/// One line of JSON: {"metric": ..., "value": ..., "unit": ..., "params": {...}}.
+void print(const std::string& metric, double value, const std::string& unit,
+           const nlohmann::json& params);
 
 }  // namespace palpa::bench

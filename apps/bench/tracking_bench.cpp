@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "apps/bench/metric.h"
 #include "apps/bench/timing.h"
 #include "apps/bench/tracking_scene.h"
 #include "ar/tracking/board_pose.h"

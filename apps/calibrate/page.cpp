@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/whole_file.h"
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 #include "apps/report/page/style.h"
 #include "apps/report/plot/chart_frame.h"
 

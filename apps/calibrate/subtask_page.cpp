@@ -4,7 +4,7 @@
 
 #include "apps/calibrate/page.h"
 #include "apps/calibrate/subtask_result.h"
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 
 namespace palpa::calibrate {
 namespace {

@@ -9,7 +9,6 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/record/session_file.h"
-#include "apps/record/trial_walk.h"
 
 namespace palpa::calibrate {
 namespace {

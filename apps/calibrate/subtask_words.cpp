@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/counted.h"
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 
 namespace palpa::calibrate {
 namespace {

@@ -243,6 +243,10 @@ std::string usualRecords() {
       .string();
 }
 
+std::filesystem::path usualConsoleHome() {
+  return os::dataFolder("Set HOME, or say where sessions are kept: --home DIR") / "palpa/console";
+}
+
 std::string usualRecordsMade() {
   std::string url = usualRecords();
   makeFolderOf(url);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,9 @@ void addSessionArguments(CLI::App& command, session::SessionOptions& options);
 /// Where the records are when nothing else is said: $PALPA_RECORDS, else records.sqlite in
 /// $XDG_DATA_HOME/palpa or ~/.local/share/palpa.
 std::string usualRecords();
-/// The same, its folder made.
+/// Where a console keeps what it keeps when nothing else is said.
+std::filesystem::path usualConsoleHome();
+/// As usualRecords, its folder made.
 std::string usualRecordsMade();
 
 /// For what only reads: throws UsageError where a records file is not there or empty, so that a

@@ -12,7 +12,7 @@
 #include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
 #include "apps/os/local_socket.h"
-#include "apps/session/event_tone.h"
+#include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
@@ -28,10 +28,6 @@ struct ConsoleOptions {
   int port = 0;
   bool open = true;
 };
-
-fs::path usualHome() {
-  return os::dataFolder("Set HOME, or say where sessions are kept: --home DIR") / "palpa/console";
-}
 
 /// The first line; a file that others may read gives its token away.
 std::string tokenIn(const std::string& file) {
@@ -57,7 +53,7 @@ void openInBrowser(const std::string& url) {
 
 console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   console::ConsoleSettings s;
-  s.place.home = fs::absolute(o.home.empty() ? usualHome() : fs::path(o.home));
+  s.place.home = fs::absolute(o.home.empty() ? usualConsoleHome() : fs::path(o.home));
   s.place.pages = station::assetFile("console");
   s.place.records = o.records;
   s.place.sockets = os::socketFolder();

@@ -22,8 +22,7 @@ Trials that were finished are judged as the session would have; one that was not
 void listUnfinished() {
   const auto left = session::unfinishedSessions();
   if (left.empty()) std::printf("Every session noted here was finished\n");
-  for (const std::filesystem::path& folder : left)
-    std::printf("palpa finish %s\n", folder.c_str());
+  for (const std::filesystem::path& folder : left) std::printf("palpa finish %s\n", folder.c_str());
 }
 
 }  // namespace

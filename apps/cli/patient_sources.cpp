@@ -5,9 +5,8 @@
 #include <filesystem>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
-#include "anatomy/patient/gltf_picture.h"
+#include "anatomy/patient/gltf.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/volume/ct_patient.h"
 #include "anatomy/volume/scan.h"

@@ -188,9 +188,22 @@ void addTrainees(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
       ->check(whyNoDate);
   overdue->add_flag("--delete", o->remove, "Delete them, with their evidence");
   CLI::App* remove =
-      sub(command, o, "delete", "Delete a person: records and evidence, for good", deletePerson);
-  addId(remove, *o);
-  for (CLI::App* one : {overdue, remove}) one->add_flag("--yes", o->yes, "Yes, for good");
+      sub(command, o, "delete",
+          "Delete a person: records, evidence, reports, and what the console keeps, for good",
+          deletePerson);
+  remove->add_option("--id", o->trainee.id, "The trainee's pseudonym")->type_name("ID");
+  remove->add_flag("--left", o->left,
+                   "Delete what earlier deletions had to leave, where it is on this computer");
+  remove
+      ->add_option("--forget", o->forget,
+                   "A session whose evidence is gone for good: it is not named any more")
+      ->type_name("UUID");
+  for (CLI::App* one : {overdue, remove}) {
+    one->add_flag("--yes", o->yes, "Yes, for good");
+    one->add_option("--home", o->home,
+                    "Where the console keeps its sessions (default ~/.local/share/palpa/console)")
+        ->type_name("DIR");
+  }
 }
 
 void addStore(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {

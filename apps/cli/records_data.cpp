@@ -5,7 +5,7 @@
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/records_actions.h"
 #include "apps/evidence/evidence_records.h"
@@ -59,6 +59,7 @@ void backUpRecords(const RecordsOptions& o) {
   if (const std::error_code problem = os::createNew(part))
     failFile("cannot be written", o.out, problem);
   const PassingFile beside(part);
+  record::RecordStore(o.url);  // who was deleted, and came back with a backup, is not in this one
   const std::size_t rows = copied(o.url, beside.name());
   std::error_code problem;
   fs::rename(beside.name(), o.out, problem);
@@ -66,7 +67,8 @@ void backUpRecords(const RecordsOptions& o) {
   std::printf("Written: %s, %s\n", o.out.c_str(), counted(rows, "row").c_str());
 }
 
-/// From a copy, so that the backup stays as it is, even on a medium that cannot be written.
+/// From a copy, so that the backup stays as it is, even on a medium that cannot be written. Whoever
+/// was deleted since it was made is deleted again.
 void restoreRecords(const RecordsOptions& o) {
   if (!fs::is_regular_file(o.from))
     throw UsageError("is not a file", o.from, "Give a backup that palpa records backup wrote");
@@ -83,7 +85,7 @@ void restoreRecords(const RecordsOptions& o) {
   fs::permissions(copy.name(), fs::perms::owner_read | fs::perms::owner_write, problem);
   const std::size_t rows = copied(copy.name(), o.url);
   std::printf("Restored: %s into the %s\n", counted(rows, "row").c_str(),
-              record::connect(o.url)->place().c_str());
+              record::RecordStore(o.url).place().c_str());
 }
 
 void migrateRecords(const RecordsOptions& o) {

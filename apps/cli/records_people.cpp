@@ -1,68 +1,14 @@
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/records_actions.h"
-#include "apps/evidence/evidence_records.h"
-#include "apps/link/outbox.h"
-#include "apps/record/session_file.h"
 #include "apps/runtime/clock.h"
-#include "apps/session/output_folder.h"
-#include "apps/study/run/station_copy.h"
 
 namespace palpa::cli {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Only what is this session's evidence: another file may lie there by now.
-bool removeEvidence(const record::StoredSession& session) {
-  try {
-    if (record::SessionReader(session.evidence).info().uuid != session.uuid) return false;
-  } catch (const Error&) {  // not here, or not to be read
-    return false;
-  }
-  std::error_code problem;
-  const bool gone = fs::remove(session.evidence, problem);
-  for (const char* beside : {"-wal", "-shm"}) fs::remove(session.evidence + beside, problem);
-  return gone;
-}
-
-/// What learning record stores were told of a deleted person is to be taken back.
-void takeBack(record::RecordStore& store, const std::string& url) {
-  if (!fs::exists(link::Outbox::usualFile())) return;
-  link::Outbox outbox(link::Outbox::usualFile());
-  const std::string records = evidence::absoluteRecords(url);
-  for (const std::string& endpoint : outbox.endpoints(records))
-    if (const int count = link::takeBackDeleted(store, {endpoint, records}, outbox); count > 0)
-      std::printf("%s will be taken back there by: palpa records xapi --to %s\n",
-                  counted(count, "statement").c_str(), endpoint.c_str());
-}
-
-void deleteOne(record::RecordStore& store, const std::string& id) {
-  study::removeStudyCopies(id);
-  const std::vector<record::StoredSession> sessions = store.deletePerson(id, runtime::utcNow());
-  for (const record::StoredSession& session : sessions) {
-    if (!removeEvidence(session)) continue;
-    store.evidenceDeleted(session.uuid);
-    std::printf(
-        "Deleted: %s; its folder may still hold a report, a table and pictures: delete it by "
-        "hand\n",
-        session.evidence.c_str());
-  }
-  std::printf("Trainee %s and %s deleted; late deliveries will be refused\n", id.c_str(),
-              counted(sessions.size(), "session").c_str());
-}
-
-void sayWhatIsLeft(record::RecordStore& store, const std::string& url) {
-  for (const record::StoredSession& left : store.evidenceToDelete())
-    std::printf("Still to be deleted where it was made: %s (session %s)\n", left.evidence.c_str(),
-                left.uuid.c_str());
-  takeBack(store, url);
-}
 
 std::string agreed(const std::string& utc) {
   return utc.empty() ? "not agreed" : "agreed on " + utc.substr(0, 10);
@@ -135,20 +81,25 @@ void listOverdue(const RecordsOptions& o) {
     throw UsageError(
         "would delete the records and evidence of " + counted(over.size(), "person") + " for good",
         "--delete", "Add --yes if that is meant");
-  for (const record::Trainee& t : over) deleteOne(store, t.id);
-  sayWhatIsLeft(store, o.url);
+  std::vector<std::string> ids;
+  for (const record::Trainee& t : over) ids.push_back(t.id);
+  deletePeople(store, o, ids);
 }
 
 void deletePerson(const RecordsOptions& o) {
   requireRecords(o.url);
   record::RecordStore store(o.url);
+  const int meant = (o.trainee.id.empty() ? 0 : 1) + (o.left ? 1 : 0) + (o.forget.empty() ? 0 : 1);
+  if (meant != 1)
+    throw UsageError("states what is meant", "--id, --left or --forget", "Give one of them");
+  if (o.left) return deleteLeft(store, o);
+  if (!o.forget.empty()) return forgetLeft(store, o.forget);
   const std::size_t sessions = store.sessions(traineeIn(store, o.trainee.id).id).size();
   if (!o.yes)
     throw UsageError("would delete this person's " + counted(sessions, "session") +
                          " with their evidence for good",
                      "trainee " + o.trainee.id, "Add --yes if that is meant");
-  deleteOne(store, o.trainee.id);
-  sayWhatIsLeft(store, o.url);
+  deletePeople(store, o, {o.trainee.id});
 }
 
 }  // namespace palpa::cli

@@ -16,6 +16,7 @@
 
 namespace palpa::cli {
 
+using evidence::Likeness;
 using training::Engine;
 
 namespace {
@@ -30,83 +31,92 @@ bool hasScore(const record::RecordedTrial& trial) {
   return trial.ended && !trial.end.scores_json.empty();
 }
 
-bool sameNeedleScores(const std::string& file) {
+const char* wordsOf(Likeness likeness) {
+  switch (likeness) {
+    case Likeness::same_bits:
+      return "";
+    case Likeness::rounding:
+      return "  differs by rounding";
+    case Likeness::changed:
+      break;
+  }
+  return "  DIFFERENT from the recorded score";
+}
+
+/// Says a trial's summary, and whether its score is what was recorded.
+Likeness sayTrial(const char* what, const record::RecordedTrial& trial, const std::string& summary,
+                  const std::string& again_json) {
+  const Likeness found = evidence::likenessOfJson(trial.end.scores_json, again_json);
+  std::printf("%s %d: %s%s\n", what, trial.header.trial, summary.c_str(), wordsOf(found));
+  return found;
+}
+
+Likeness needleScores(const std::string& file) {
   const evidence::RecordedSession session(file);
-  bool same = true;
-  session.eachTrial(
-      [&](const record::RecordedTrial& trial, const evidence::RecordedSession::Samples& samples) {
-        if (!hasScore(trial)) return;
-        const nlohmann::json scores = parseJson(trial.end.scores_json);
-        if (session.hasGoal()) {
-          const assess::TrialAssessment reached = session.rescore(trial, samples);
-          const bool equal = scores.at("TIME") == reached.values.time_ms &&
-                             scores.at("SUCCESS") == (reached.values.success ? 1 : 0);
-          std::printf("Trial %d: %s%s\n", trial.header.trial, reached.summary.c_str(),
-                      equal ? "" : "  DIFFERENT from the recorded score");
-          same = same && equal;
-          return;
-        }
-        if (session.reader().info().expert_path_json.empty()) return;
-        const double stored = scores.at("TOTAL").get<double>();
-        const double again = session.rescore(trial, samples).total;
-        std::printf("Trial %d: total penalty %.6f recorded, %.6f scored again%s\n",
-                    trial.header.trial, stored, again, stored == again ? "" : "  DIFFERENT");
-        same = same && stored == again;
-      });
-  return same;
+  Likeness worst = Likeness::same_bits;
+  session.eachTrial([&](const record::RecordedTrial& trial,
+                        const evidence::RecordedSession::Samples& samples) {
+    if (!hasScore(trial)) return;
+    const nlohmann::json scores = parseJson(trial.end.scores_json);
+    if (session.hasGoal()) {
+      const assess::TrialAssessment reached = session.rescore(trial, samples);
+      const nlohmann::json was{scores.at("TIME"), scores.at("SUCCESS")};
+      const nlohmann::json is{reached.values.time_ms, reached.values.success ? 1 : 0};
+      const Likeness found = evidence::likenessOfJson(was.dump(), is.dump());
+      std::printf("Trial %d: %s%s\n", trial.header.trial, reached.summary.c_str(), wordsOf(found));
+      worst = worse(worst, found);
+      return;
+    }
+    if (session.reader().info().expert_path_json.empty()) return;
+    const double stored = scores.at("TOTAL").get<double>();
+    const double again = session.rescore(trial, samples).total;
+    const Likeness found = evidence::likeness(stored, again);
+    std::printf("Trial %d: total penalty %.6f recorded, %.6f scored again%s\n", trial.header.trial,
+                stored, again, wordsOf(found));
+    worst = worse(worst, found);
+  });
+  return worst;
 }
 
-bool samePalpationScores(const record::SessionReader& reader) {
-  bool same = true;
-  for (const evidence::RecordedPalpation& trial : evidence::recordedPalpations(reader)) {
-    if (!hasScore(trial.recorded)) continue;
-    const bool equal = parseJson(trial.recorded.end.scores_json) ==
-                       parseJson(task_palpation::scoreJson(trial.assessment));
-    std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, trial.assessment.summary.c_str(),
-                equal ? "" : "  DIFFERENT from the recorded score");
-    same = same && equal;
-  }
-  return same;
+Likeness palpationScores(const record::SessionReader& reader) {
+  Likeness worst = Likeness::same_bits;
+  for (const evidence::RecordedPalpation& trial : evidence::recordedPalpations(reader))
+    if (hasScore(trial.recorded))
+      worst = worse(worst, sayTrial("Trial", trial.recorded, trial.assessment.summary,
+                                    task_palpation::scoreJson(trial.assessment)));
+  return worst;
 }
 
-bool sameSqueezeScores(const record::SessionReader& reader) {
-  bool same = true;
-  for (const evidence::RecordedSqueeze& trial : evidence::recordedSqueezes(reader)) {
-    if (!hasScore(trial.recorded)) continue;
-    const bool equal = parseJson(trial.recorded.end.scores_json) ==
-                       parseJson(task_squeeze::scoreJson(trial.again));
-    std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(),
-                equal ? "" : "  DIFFERENT from the recorded score");
-    same = same && equal;
-  }
-  return same;
+Likeness squeezeScores(const record::SessionReader& reader) {
+  Likeness worst = Likeness::same_bits;
+  for (const evidence::RecordedSqueeze& trial : evidence::recordedSqueezes(reader))
+    if (hasScore(trial.recorded))
+      worst = worse(worst, sayTrial("Trial", trial.recorded, summaryOf(trial.again),
+                                    task_squeeze::scoreJson(trial.again)));
+  return worst;
 }
 
-bool sameSearchScores(const record::SessionReader& reader) {
-  bool same = true;
-  for (const evidence::RecordedSearch& trial : evidence::recordedSearches(reader)) {
-    if (!hasScore(trial.recorded)) continue;
-    const bool equal =
-        parseJson(trial.recorded.end.scores_json) == parseJson(task_search::scoreJson(trial.again));
-    std::printf("Episode %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(),
-                equal ? "" : "  DIFFERENT from the recorded score");
-    same = same && equal;
-  }
-  return same;
+Likeness searchScores(const record::SessionReader& reader) {
+  Likeness worst = Likeness::same_bits;
+  for (const evidence::RecordedSearch& trial : evidence::recordedSearches(reader))
+    if (hasScore(trial.recorded))
+      worst = worse(worst, sayTrial("Episode", trial.recorded, summaryOf(trial.again),
+                                    task_search::scoreJson(trial.again)));
+  return worst;
 }
 
-bool sameScores(const record::SessionReader& reader, const std::string& file) {
+Likeness scoresOf(const record::SessionReader& reader, const std::string& file) {
   switch (evidence::engineOf(reader)) {
     case Engine::palpation:
-      return samePalpationScores(reader);
+      return palpationScores(reader);
     case Engine::search:
-      return sameSearchScores(reader);
+      return searchScores(reader);
     case Engine::squeeze:
-      return sameSqueezeScores(reader);
+      return squeezeScores(reader);
     case Engine::needle:
       break;
   }
-  return sameNeedleScores(file);
+  return needleScores(file);
 }
 
 void printForces(const record::SessionReader& reader) {
@@ -118,22 +128,32 @@ void printForces(const record::SessionReader& reader) {
       balance->largest_N, balance->rms_N, balance->samples, balance->object_N);
 }
 
+void printTicks(const evidence::ReplayCheck& check) {
+  std::printf("%lld ticks run again: %lld differ", static_cast<long long>(check.ticks),
+              static_cast<long long>(check.different));
+  if (check.different > check.changed)
+    std::printf("; %lld of these by rounding, at most %.1e N",
+                static_cast<long long>(check.different - check.changed), check.largest);
+  std::printf("%s\n", check.gaps ? " (records are missing)" : "");
+}
+
 void replay(const std::string& file) {
   const record::SessionReader reader(file);
   const evidence::ReplayCheck check =
       evidence::replayTicks(reader, evidence::recordedFloors(reader));
-  std::printf("%lld ticks run again: %lld differ%s\n", static_cast<long long>(check.ticks),
-              static_cast<long long>(check.different), check.gaps ? " (records are missing)" : "");
-  bool same = check.different == 0 && check.ticks > 0;
-  same = sameScores(reader, file) && same;
-  if (!same)
-    throw Error(
-        "the replay differs from the record" +
-            (check.first_difference >= 0 ? " from tick " + std::to_string(check.first_difference)
-                                         : ""),
-        file, "It was made by another version or processor, or was changed");
+  printTicks(check);
+  const Likeness all = worse(check.likeness(), scoresOf(reader, file));
+  if (all == Likeness::changed)
+    throw Error("the replay differs from the record" +
+                    (check.changed ? " from tick " + std::to_string(check.first_change) : ""),
+                file,
+                "By more than rounding: it was changed, or made by a version with other forces or "
+                "scores");
   printForces(reader);
-  std::printf("The replay equals the record: same forces, same score\n");
+  std::printf(all == Likeness::same_bits
+                  ? "The replay equals the record: same forces, same score\n"
+                  : "The replay differs from the record by rounding only: it was made on another "
+                    "processor or by an older version\n");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "anatomy/base/whole_file.h"
 #include "apps/cli/values.h"
 #include "apps/evidence/recorded_show.h"
-#include "apps/live/jpeg.h"
+#include "apps/live/port.h"
 #include "apps/os/signals.h"
 #include "apps/replay/film.h"
 #include "apps/replay/player.h"

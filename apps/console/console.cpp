@@ -6,11 +6,9 @@
 #include <thread>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/routes.h"
 #include "apps/os/file_access.h"
-#include "apps/os/file_lock.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
 #include "apps/os/socket.h"
@@ -59,7 +57,8 @@ std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
   return hosts;
 }
 
-/// The server's own thread, ended in any case: an error on the way, as of a full disk, is to be said.
+/// The server's own thread, ended in any case: an error on the way, as of a full disk, is to be
+/// said.
 class Serving {
  public:
   explicit Serving(WebServer& server) : server_(server), thread_([&server] { server.serve(); }) {}

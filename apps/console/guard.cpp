@@ -119,7 +119,8 @@ GuardVerdict Guard::judgeWrite(const GuardedRequest& asked) {
     return {403, "not requested by a page of this console: load the page again"};
   if (!isNumber(asked.write_id)) return {400, "a write needs a number of its own"};
   const std::lock_guard lock(mutex_);
-  if (!isStopPath(asked.path) && flooding(asked.remote)) return {429, "too many writes: wait a few seconds"};
+  if (!isStopPath(asked.path) && flooding(asked.remote))
+    return {429, "too many writes: wait a few seconds"};
   if (!written_.insert(asked.write_id).second) return {409, "this was requested before"};
   order_.push_back(asked.write_id);
   if (order_.size() > kKeptNumbers) {

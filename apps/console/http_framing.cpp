@@ -38,8 +38,8 @@ void DeadlineStream::begin(Clock::time_point deadline, std::size_t most) {
 
 void DeadlineStream::answerWithin(std::chrono::milliseconds whole,
                                   std::chrono::milliseconds stalled) {
-  answered_ = whole == std::chrono::milliseconds::max() ? Clock::time_point::max()
-                                                        : Clock::now() + whole;
+  answered_ =
+      whole == std::chrono::milliseconds::max() ? Clock::time_point::max() : Clock::now() + whole;
   stalled_ = stalled;
 }
 
@@ -55,8 +55,7 @@ bool DeadlineStream::is_readable() const {
 
 /// False as soon as the other side is gone: a stream of pictures ends with its reader.
 bool DeadlineStream::is_writable() const {
-  return Clock::now() < answered_ &&
-         os::readerTakes(socket_, static_cast<int>(stalled_.count()));
+  return Clock::now() < answered_ && os::readerTakes(socket_, static_cast<int>(stalled_.count()));
 }
 
 bool DeadlineStream::fill() {
@@ -142,8 +141,7 @@ const char* whyNoHeader(std::string_view line) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos || colon == 0) return "a header has no name";
   if (isBlank(line[colon - 1])) return "a header has a blank before its colon";
-  return std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(colon),
-                     standsInAName)
+  return std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(colon), standsInAName)
              ? nullptr
              : "a header's name is none";
 }

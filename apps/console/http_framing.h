@@ -34,8 +34,8 @@ class DeadlineStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   socket_t socket() const override { return socket_; }
   const std::string& remote() const { return remote_; }
-  bool cut() const { return cut_; }    ///< it was too slow or too long
-  bool left() const { return left_; }  ///< the other side ended it
+  bool cut() const { return cut_; }                         ///< it was too slow or too long
+  bool left() const { return left_; }                       ///< the other side ended it
   std::string rest() const { return buffer_.substr(at_); }  ///< of the next request
 
  private:

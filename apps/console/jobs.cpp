@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 
 #include "anatomy/base/error.h"
-#include "apps/console/process_log.h"
+#include "anatomy/base/text_forms.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 
@@ -67,6 +68,7 @@ std::string Jobs::add(JobRequest request) {
 
 nlohmann::json Jobs::ask(JobRequest request) {
   const std::string key = request.key;
+  const bool pageless = request.page.empty();
   std::string id;
   {
     const std::lock_guard lock(mutex_);
@@ -74,7 +76,10 @@ nlohmann::json Jobs::ask(JobRequest request) {
     id = found != asked_.end() ? found->second : asked_[key] = addLocked(std::move(request));
   }
   nlohmann::json told = one(id);
-  if (told["state"] == "failed") {
+  const bool page_gone = told["state"] == "done" && !pageless && told["page"] == "";
+  if (page_gone)
+    told["state"] = "working";  // with somebody who was deleted: asked again, it is made
+  if (page_gone || told["state"] == "failed") {
     const std::lock_guard lock(mutex_);
     asked_.erase(key);
   }
@@ -201,6 +206,37 @@ std::string Jobs::workingOn(const std::string& prefix) {
         (job.state == JobState::waiting || job.state == JobState::running))
       return id;
   return "";
+}
+
+namespace {
+
+constexpr std::streamoff kTail = 16 << 10;
+constexpr std::size_t kLongestLine = 1000;
+
+}  // namespace
+
+std::vector<std::string> lastLines(const std::filesystem::path& log, std::size_t most) {
+  std::ifstream file(log, std::ios::binary | std::ios::ate);
+  if (!file) return {};
+  const std::streamoff size = file.tellg();
+  file.seekg(std::max<std::streamoff>(0, size - kTail));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    if (const std::size_t anew = line.rfind('\r'); anew != std::string::npos)
+      line.erase(0, anew + 1);
+    if (!line.empty()) lines.push_back(plainText(line, kLongestLine));
+  }
+  if (lines.size() > most)
+    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(most));
+  return lines;
+}
+
+std::string complaintIn(const std::filesystem::path& log) {
+  const std::vector<std::string> lines = lastLines(log, 50);
+  const auto found = std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) {
+    return line.rfind("palpa: ", 0) == 0;
+  });
+  return found == lines.rend() ? "" : found->substr(7);
 }
 
 }  // namespace palpa::console

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -76,5 +77,10 @@ class Jobs {
 
 /// How far, of the last line that says "3 of 20"; null: it does not say.
 nlohmann::json fractionOf(const std::vector<std::string>& lines);
+
+/// The last lines of a log, without what a terminal would make of them.
+std::vector<std::string> lastLines(const std::filesystem::path& log, std::size_t most);
+/// Of the last line that begins with "palpa: ": what went wrong; empty: nothing was said.
+std::string complaintIn(const std::filesystem::path& log);
 
 }  // namespace palpa::console

@@ -59,8 +59,8 @@ bool isEmergencyStop(const std::string& said) {
   constexpr std::string_view kMethod = "POST ", kVersion = " HTTP/1.1";
   const std::string_view line = std::string_view(said).substr(0, said.find('\r'));
   if (!line.starts_with(kMethod) || !line.ends_with(kVersion)) return false;
-  return isStopPath(std::string(
-      line.substr(kMethod.size(), line.size() - kMethod.size() - kVersion.size())));
+  return isStopPath(
+      std::string(line.substr(kMethod.size(), line.size() - kMethod.size() - kVersion.size())));
 }
 
 void Lobby::run(int listener) {
@@ -123,9 +123,8 @@ void Lobby::makeRoom() {
   std::map<std::string, std::size_t> of;
   for (const auto& caller : waiting_) ++of[caller->remote];
   const auto most = [&of] {
-    return std::max_element(of.begin(), of.end(), [](const auto& a, const auto& b) {
-      return a.second < b.second;
-    });
+    return std::max_element(of.begin(), of.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; });
   };
   while (!of.empty() && (most()->second > kMostOfOne || waiting_.size() > kMost)) {
     const auto address = most();

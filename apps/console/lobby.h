@@ -20,9 +20,9 @@ struct Caller {
   Caller& operator=(const Caller&) = delete;
 
   const int socket;
-  std::string remote;  ///< its address in figures
-  std::string said;    ///< bytes of its next request
-  int answered = 0;    ///< requests
+  std::string remote;                       ///< its address in figures
+  std::string said;                         ///< bytes of its next request
+  int answered = 0;                         ///< requests
   runtime::ServingClock::time_point since;  ///< when it came, came back, or began to speak
 };
 

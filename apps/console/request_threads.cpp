@@ -75,7 +75,8 @@ void RequestThreads::work(Line& line, const Answer& answer) {
     lock.unlock();
     try {
       answer(std::move(caller));
-    } catch (const std::exception&) {  // no memory left: this connection ends, the next may be served
+    } catch (
+        const std::exception&) {  // no memory left: this connection ends, the next may be served
     }
     lock.lock();
     --line.all;

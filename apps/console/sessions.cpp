@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/console/process_log.h"
+#include "apps/console/jobs.h"
 #include "apps/os/file_access.h"
 #include "apps/record/session_file.h"
 

@@ -3,7 +3,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/console/process_log.h"
+#include "apps/console/jobs.h"
 #include "apps/console/routes.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"

@@ -15,8 +15,8 @@ namespace {
 using Clock = DeadlineStream::Clock;
 using namespace std::chrono_literals;
 constexpr std::chrono::milliseconds kBodyWithin = 10s, kCrowdedBodyWithin = 2s,
-                                    kAnswerWithin = 120s, kStalled = 10s,
-                                    kStopAnswered = 100ms, kLinger = 500ms;
+                                    kAnswerWithin = 120s, kStalled = 10s, kStopAnswered = 100ms,
+                                    kLinger = 500ms;
 constexpr int kKnocking = 512, kRequestsAConnection = 1000;
 constexpr std::size_t kLongestRequest = 128u << 10, kMostLater = 1000;
 

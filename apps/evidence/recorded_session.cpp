@@ -15,7 +15,7 @@
 #include "apps/assess/dose_counter.h"
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/needle_metrics.h"
-#include "apps/record/trial_walk.h"
+#include "apps/record/session_file.h"
 #include "apps/task_needle/needle_task.h"
 #include "apps/training/trial_words.h"
 #include "haptics/loop/tick.h"
@@ -57,9 +57,9 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
 namespace {
 
 /// Every trial and all its judged ticks; `tick` sees the others, too.
-void walkNeedle(const record::SessionReader& reader, const Pose& X_DA,
-                const record::TrialVisitor& besides,
-                const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
+void walkNeedle(
+    const record::SessionReader& reader, const Pose& X_DA, const record::TrialVisitor& besides,
+    const std::function<void(const record::RecordedTrial&, const NeedleSamples&)>& visit) {
   assess::TrialSampler sampler(X_DA.inverse(), reader.info().tick_config.X_ET);
   NeedleSamples samples;
   record::walkTrials(
@@ -133,24 +133,48 @@ std::vector<RecordedNeedle> recordedNeedles(const RecordedSession& session) {
 
 namespace {
 
-bool sameForces(const haptics::FlightRecord& a, const haptics::FlightRecord& b) {
-  return a.f_contact_D == b.f_contact_D && a.f_command_D == b.f_command_D &&
-         a.tau_missing_D == b.tau_missing_D && a.depth == b.depth && a.events == b.events &&
-         a.f_augmentation_D == b.f_augmentation_D && a.subtasks == b.subtasks &&
-         a.place == b.place && a.phase == b.phase && a.tissue == b.tissue && a.bone == b.bone &&
-         a.wall == b.wall && a.safety == b.safety;
+/// Whether what is no number agrees: where the tool is, and what happened.
+bool sameWords(const haptics::FlightRecord& a, const haptics::FlightRecord& b) {
+  return a.events == b.events && a.subtasks == b.subtasks && a.place == b.place &&
+         a.phase == b.phase && a.tissue == b.tissue && a.bone == b.bone && a.wall == b.wall &&
+         a.safety == b.safety;
 }
 
-}  // namespace
-
-namespace {
+/// Forces, torque and depth of a tick.
+std::array<double, 13> comparedOf(const haptics::FlightRecord& r) {
+  std::array<double, 13> all{};
+  auto* next = all.data();
+  for (const Packed3& v : {r.f_contact_D, r.f_command_D, r.tau_missing_D, r.f_augmentation_D})
+    next = std::copy(v.begin(), v.end(), next);
+  *next = r.depth;
+  return all;
+}
 
 void count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& again,
            ReplayCheck* check) {
   ++check->ticks;
-  if (sameForces(recorded, again)) return;
+  Likeness found = sameWords(recorded, again) ? Likeness::same_bits : Likeness::changed;
+  const std::array<double, 13> was = comparedOf(recorded), is = comparedOf(again);
+  double largest = 0;
+  for (std::size_t i = 0; i < was.size(); ++i) {
+    found = worse(found, likeness(was[i], is[i]));
+    largest = std::max(largest, std::abs(was[i] - is[i]));
+  }
+  if (found == Likeness::same_bits) return;
   if (check->different++ == 0) check->first_difference = recorded.tick;
+  if (found == Likeness::rounding) check->largest = std::max(check->largest, largest);
+  if (found == Likeness::changed && check->changed++ == 0) check->first_change = recorded.tick;
 }
+
+}  // namespace
+
+Likeness ReplayCheck::likeness() const {
+  return changed > 0 || ticks == 0 ? Likeness::changed
+         : different > 0           ? Likeness::rounding
+                                   : Likeness::same_bits;
+}
+
+namespace {
 
 /// Two devices in one tick: from the first tick on, while none is missing.
 ReplayCheck replayPairs(const record::SessionReader& reader) {
@@ -191,13 +215,16 @@ ReplayCheck replaySingle(const record::SessionReader& reader,
   ReplayCheck check;
   haptics::TickState state;
   bool aligned = false;
+  std::int64_t differed = 0;  // of the ticks since the state was taken from a keyframe
   reader.ticks([&](const haptics::FlightRecord& recorded) {
-    if (!aligned || state.tick != recorded.tick) {
-      if (aligned) ++check.gaps;
+    const bool strayed = check.different > differed && keyframes.count(recorded.tick) > 0;
+    if (!aligned || strayed || state.tick != recorded.tick) {
+      if (aligned && state.tick != recorded.tick) ++check.gaps;
       const auto keyframe = keyframes.find(recorded.tick);
       aligned = keyframe != keyframes.end();
       if (!aligned) return;  // wait for the next keyframe
       state = keyframe->second;
+      differed = check.different;
     }
     const auto snapshot = snapshots.find(recorded.snapshot);
     const haptics::FlightRecord again = haptics::tick(

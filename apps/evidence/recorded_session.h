@@ -12,6 +12,7 @@
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/assess/needle/trial_sampler.h"
+#include "apps/evidence/likeness.h"
 #include "apps/record/session_file.h"
 #include "apps/task_needle/task_file.h"
 #include "calibration/expert_path.h"
@@ -75,8 +76,13 @@ std::vector<RecordedNeedle> recordedNeedles(const RecordedSession& session);
 
 /// Outcome of running every recorded tick again.
 struct ReplayCheck {
-  std::int64_t ticks = 0, different = 0, first_difference = -1;
+  std::int64_t ticks = 0;
+  std::int64_t different = 0;  ///< not the same bits; from the next keyframe on, its state counts
+  std::int64_t changed = 0;    ///< of these: by more than rounding
+  std::int64_t first_difference = -1, first_change = -1;  ///< number of the tick
+  double largest = 0;     ///< of the differences by rounding; N, N m, m
   std::int64_t gaps = 0;  ///< ticks missing in the record; the state is then taken from a keyframe
+  Likeness likeness() const;  ///< of the forces
 };
 /// `floors`: of a search, by number; null where there is none.
 ReplayCheck replayTicks(

@@ -9,7 +9,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "apps/assess/dose_counter.h"
-#include "apps/record/trial_walk.h"
+#include "apps/record/session_file.h"
 #include "apps/station/task_sections.h"
 #include "apps/training/engine.h"
 #include "apps/training/trial_words.h"
@@ -110,14 +110,9 @@ struct PalpationInWords {
     const double guided = trial.ended && !trial.end.scores_json.empty()
                               ? fieldOf(trial.end.scores_json, "GUIDED", 0.0, "a trial's score")
                               : 0;
-    const assess::PalpationFacts facts{header.trial,
-                                       training::roleNamed(header.role),
-                                       simulated,
-                                       header.force_feedback,
-                                       header.seed,
-                                       training::outcomeNamed(trial.end.outcome),
-                                       guided,
-                                       augmented};
+    const assess::PalpationFacts facts{
+        header.trial, training::roleNamed(header.role),          simulated, header.force_feedback,
+        header.seed,  training::outcomeNamed(trial.end.outcome), guided,    augmented};
     return assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
                                    listener.samples(), listener.marks());
   }

@@ -1,6 +1,6 @@
 #include "apps/link/data_tables.h"
 
-#include "anatomy/base/csv.h"
+#include "anatomy/base/text_forms.h"
 #include "anatomy/base/whole_file.h"
 
 namespace palpa::link {

@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "anatomy/base/error.h"
-#include "apps/link/exchange_watch.h"
+#include "apps/link/bounded_client.h"
+#include "apps/os/socket.h"
 
 namespace palpa::link {
 namespace {
@@ -115,10 +116,9 @@ Login loginFor(const std::string& host, const std::string& user) {
 namespace {
 
 constexpr char kVersionHeader[] = "X-Experience-API-Version", kVersion[] = "1.0.3";
-// An answer with its head, and what protects it on the way
-constexpr std::uint64_t kMostReceived =
-    LrsClient::kLongestAnswer + (LrsClient::kLongestAnswer >> 3);
-constexpr char kTooLong[] = "the answer is longer than 1 MB",
+// A body in pieces says the length of each: more bytes than it holds
+constexpr std::size_t kLongestBytes = 2 * LrsClient::kLongestAnswer;
+constexpr char kTooLong[] = "the answer is too long (at most 1 MB)",
                kTooSlow[] = "the answer did not end within the time allowed";
 
 std::string inWords(httplib::Error error) {
@@ -146,17 +146,22 @@ std::string inWords(httplib::Error error) {
 
 struct LrsClient::Impl {
   Impl(const Endpoint& e, const Login& login, const LrsTimes& times)
-      : endpoint(e), whole(times.whole_s), client(e.origin) {
-    client.set_connection_timeout(times.connect_s);
-    client.set_read_timeout(times.answer_s);
-    client.set_write_timeout(times.answer_s);
-    client.set_keep_alive(true);
-    client.set_tcp_nodelay(true);  // head and body are written apart, and would wait for each other
-    client.set_follow_location(false);
-    client.set_decompress(false);  // none is asked for, and a small one may grow without bound
-    client.set_socket_options([this](socket_t socket) { connection.use(socket); });
-    client.enable_server_certificate_verification(true);
-    if (!login.user.empty()) client.set_basic_auth(login.user, login.password);
+      : endpoint(e),
+        whole(times.whole_s),
+        client(boundedClient(e.host, portOf(e), e.origin.starts_with("https"),
+                             {.body = kLongestBytes}, count)) {
+    os::surviveBrokenConnections();  // a protection that is being agreed on may break
+    client->set_connection_timeout(times.connect_s);
+    client->set_read_timeout(times.answer_s);
+    client->set_write_timeout(times.answer_s);
+    client->set_keep_alive(true);
+    client->set_tcp_nodelay(
+        true);  // head and body are written apart, and would wait for each other
+    client->set_follow_location(false);
+    client->set_decompress(false);  // none is asked for, and a small one may grow without bound
+    client->enable_server_certificate_verification(true);
+    client->set_socket_options([this](socket_t socket) { connection.use(socket); });
+    if (!login.user.empty()) client->set_basic_auth(login.user, login.password);
   }
 
   std::string resource(const char* parameter, const std::string& id) const {
@@ -165,43 +170,54 @@ struct LrsClient::Impl {
 
   LrsAnswer answerTo(httplib::Request request) {
     std::string body;
-    bool too_long = false;
     request.headers.insert(headers.begin(), headers.end());
-    request.content_receiver = [&](const char* bytes, std::size_t count, std::uint64_t,
-                                   std::uint64_t) {
-      too_long = body.size() + count > kLongestAnswer;
-      if (!too_long) body.append(bytes, count);
-      return !too_long;
+    request.response_handler = [this](const httplib::Response&) {
+      count.in_body = true;
+      count.bytes = 0;
+      return true;
     };
-    ExchangeWatch watch(connection, whole, kMostReceived);
-    const httplib::Result result = client.send(request);
-    const ExchangeWatch::Cut cut = watch.end();
+    request.content_receiver = [&](const char* bytes, std::size_t size, std::uint64_t,
+                                   std::uint64_t) {
+      count.too_long |= body.size() + size > kLongestAnswer;
+      if (!count.too_long) body.append(bytes, size);
+      return !count.too_long;
+    };
+    count = {};
+    ExchangeWatch watch(connection, whole);
+    const httplib::Result result = client->send(request);
+    const bool too_slow = watch.end();
     LrsAnswer answer;
-    if (too_long || cut == ExchangeWatch::Cut::too_much)
+    if (count.too_long)
       answer.trouble = kTooLong;
-    else if (cut == ExchangeWatch::Cut::too_slow)
+    else if (too_slow)
       answer.trouble = kTooSlow;
+    else if (!result)
+      answer.trouble = inWords(result.error());
     else
-      answer = answerOf(result, std::move(body));
+      answer = answerOf(*result, std::move(body));
     return answer;
   }
 
-  static LrsAnswer answerOf(const httplib::Result& result, std::string body) {
-    LrsAnswer answer;
-    if (!result) {
-      answer.trouble = inWords(result.error());
-      return answer;
-    }
-    answer.status = result->status;
-    answer.is_lrs = result->get_header_value(kVersionHeader).rfind("1.", 0) == 0;
-    answer.body = std::move(body);
-    return answer;
+  static LrsAnswer answerOf(const httplib::Response& response, std::string body) {
+    return {response.status, response.get_header_value(kVersionHeader).rfind("1.", 0) == 0,
+            std::move(body), ""};
+  }
+
+  /// As the address says, else the usual one.
+  static int portOf(const Endpoint& e) {
+    const std::size_t colon = e.origin.rfind(':'), bracket = e.origin.rfind(']');
+    const bool stated = colon != std::string::npos && colon > e.origin.find("//") &&
+                        (bracket == std::string::npos || colon > bracket) &&
+                        colon + 1 < e.origin.size();
+    if (stated) return std::stoi(e.origin.substr(colon + 1));
+    return e.origin.starts_with("https") ? 443 : 80;
   }
 
   const Endpoint endpoint;
   const std::chrono::seconds whole;
+  AnswerCount count;
   WatchedConnection connection;
-  httplib::Client client;
+  const std::unique_ptr<httplib::ClientImpl> client;
   const httplib::Headers headers{{kVersionHeader, kVersion}, {"Accept", "application/json"}};
 };
 

@@ -1,6 +1,6 @@
 #include "apps/link/outbox.h"
 
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 
 namespace palpa::link {
@@ -113,11 +113,20 @@ std::vector<Letter> Outbox::sent(const Route& route) {
 
 void Outbox::takeBack(const Route& route, const std::string& id, const Letter& voiding) {
   record::Transaction transaction(database_);
-  record::Statement(database_, "UPDATE letters SET state=2,body='' WHERE endpoint=? AND id=?")
+  record::Statement(database_,
+                    "UPDATE letters SET state=2,body='',person='' WHERE endpoint=? AND id=?")
       .bind(route.endpoint, id)
       .run();
   insert(route, voiding);
   transaction.commit();
+}
+
+void Outbox::leaveNoTrace() {
+  try {
+    database_.exec("VACUUM");
+    database_.integer("PRAGMA wal_checkpoint(TRUNCATE)");
+  } catch (const record::DatabaseError&) {  // another program is at it: it is done the next time
+  }
 }
 
 }  // namespace palpa::link

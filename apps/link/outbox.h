@@ -47,6 +47,7 @@ class Outbox {
   std::vector<Letter> sent(const Route& route);
   /// Puts in `voiding` for a statement; its own text, if it still waits, is thrown away unsent.
   void takeBack(const Route& route, const std::string& id, const Letter& voiding);
+  void leaveNoTrace();  ///< of thrown away texts in the file and its log, unless others read it now
 
  private:
   void writeAhead();

@@ -7,8 +7,8 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
-#include "anatomy/base/plain_text.h"
 #include "anatomy/base/sha256.h"
+#include "anatomy/base/text_forms.h"
 #include "anatomy/base/uuid.h"
 #include "apps/link/statement.h"
 #include "apps/runtime/clock.h"
@@ -166,6 +166,10 @@ int takeBackDeleted(record::RecordStore& store, const Route& route, Outbox& outb
     return known != deleted.end() ? known->second
                                   : deleted.emplace(person, store.wasDeleted(person)).first->second;
   };
+  // A pseudonym may have been given anew: what was told of sessions that are there stays.
+  const auto isGone = [&](const Letter& letter) {
+    return wasDeleted(letter.person) && !store.session(letter.session);
+  };
   const std::vector<Letter> told = outbox.sent(route);
   std::set<std::pair<std::string, std::int64_t>> void_now;
   if (!told.empty())
@@ -173,13 +177,14 @@ int takeBackDeleted(record::RecordStore& store, const Route& route, Outbox& outb
       if (training::isVoid(t.trial.outcome)) void_now.insert({t.session.uuid, t.trial.number});
   int taken = 0;
   for (const Letter& letter : told) {
-    if (!wasDeleted(letter.person) && !void_now.contains({letter.session, letter.trial})) continue;
+    if (!isGone(letter) && !void_now.contains({letter.session, letter.trial})) continue;
     const nlohmann::json voiding = voidingOf(letter.id);
     outbox.takeBack(
         route, letter.id,
         {voiding.at("id"), letter.id, letter.session, letter.trial, "", textOf(voiding)});
     ++taken;
   }
+  if (taken > 0) outbox.leaveNoTrace();
   return taken;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/live/entry.h"
+#include "apps/live/live_sink.h"
 #include "apps/live/wire.h"
 #include "apps/training/trial_words.h"
 

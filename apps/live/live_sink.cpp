@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/live/entry.h"
-
 namespace palpa::live {
 namespace {
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -94,5 +96,13 @@ class LiveSink final : public runtime::FlightSink {
   std::optional<haptics::FlightRecord> last_;
   std::string near_words_;  ///< the last that was told
 };
+
+/// An entry of the log as it is told; what is no UTF-8 is replaced, so that it can be read.
+inline std::string entryOf(const nlohmann::json& entry) {
+  return entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Session time, to the millisecond.
+inline double secondsOf(std::int64_t ns) { return static_cast<double>(ns / 1'000'000) * 1e-3; }
 
 }  // namespace palpa::live

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <sstream>
 
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 
 extern char** environ;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <system_error>
 
@@ -50,5 +51,24 @@ std::string programStamp();
 
 /// Standard error is a terminal: a line may renew itself there.
 bool errorsGoToTerminal();
+
+/// A file that one holder at a time has. Given back at the end of its life, or with the process,
+/// however that ends.
+class FileLock {
+ public:
+  enum class Missing { fails, is_made };  ///< made: readable by this user alone
+  /// Never waits. Null where another holds it, or the file cannot be opened.
+  static std::unique_ptr<FileLock> exclusive(const std::filesystem::path& file, Missing missing);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  const int descriptor_;
+};
+
+/// Somebody holds it now. False where there is no such file.
+bool isLocked(const std::filesystem::path& file);
 
 }  // namespace palpa::os

@@ -11,7 +11,7 @@
 #include <filesystem>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::os {
 namespace {

@@ -2,14 +2,15 @@
 
 #include <arpa/inet.h>
 #include <fcntl.h>
-#include <linux/tcp.h>  // not netinet's: that one does not know how many bytes came
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <vector>
 
@@ -105,12 +106,7 @@ void sendAtOnce(int socket) {
   ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
 }
 
-std::uint64_t bytesReceived(int socket) {
-  tcp_info facts{};
-  socklen_t size = sizeof facts;
-  return ::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &facts, &size) == 0 ? facts.tcpi_bytes_received
-                                                                         : 0;
-}
+void surviveBrokenConnections() { ::signal(SIGPIPE, SIG_IGN); }
 
 int sharedSocket(int socket) { return ::fcntl(socket, F_DUPFD_CLOEXEC, 0); }
 

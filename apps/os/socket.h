@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,8 +50,9 @@ void widenBacklog(int listener, int most);
 void neverWait(int socket);
 /// Of a TCP connection: small messages leave at once, and do not wait for each other.
 void sendAtOnce(int socket);
-/// Bytes that came over a TCP connection since it was made; 0 where that is not known.
-std::uint64_t bytesReceived(int socket);
+/// A connection that breaks while something is sent ends no program from now on: for libraries that
+/// send by themselves. What is sent from here never does.
+void surviveBrokenConnections();
 /// A second descriptor of the same connection, to be closed apart; -1: there is none left.
 int sharedSocket(int socket);
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <span>
 
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/uuid.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 #include "apps/record/schema.h"
 #include "apps/record/session_file.h"

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
 

@@ -35,10 +35,6 @@ CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
                                  ar::BoardTracker::Settings{{}, !settings_.photographs});
 }
 
-CameraActivity::~CameraActivity() {
-  if (pending_.valid()) pending_.wait();
-}
-
 CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number) {
   CameraView view;
   view.t_exposure_ns = t_ns;
@@ -124,9 +120,9 @@ std::int64_t CameraActivity::step(std::int64_t now_ns) {
     return publish(pending_.get(), exposed_ns_,
                    now_ns);  // time to show what was exposed `latency_ns` ago
   exposed_ns_ = now_ns;
-  pending_ =
-      std::async(std::launch::async, [this, exposure = expose_(now_ns, number_), now_ns,
-                                      number = number_] { return see(exposure, now_ns, number); });
+  pending_ = beside_.start([this, exposure = expose_(now_ns, number_), now_ns, number = number_] {
+    return see(exposure, now_ns, number);
+  });
   ++number_;
   return now_ns + settings_.latency_ns;
 }

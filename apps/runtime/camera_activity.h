@@ -7,6 +7,7 @@
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
+#include "apps/runtime/own_thread.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::runtime {
@@ -44,7 +45,6 @@ class CameraActivity final : public Activity {
   CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
                  const calibration::CameraModel& camera, const Settings& settings,
                  Observer observer = {});
-  ~CameraActivity() override;
   const char* name() const override { return "camera"; }
   std::int64_t step(std::int64_t now_ns) override;
 
@@ -66,6 +66,7 @@ class CameraActivity final : public Activity {
   std::future<CameraView> pending_;
   std::int64_t exposed_ns_ = 0;
   std::uint64_t number_ = 0;
+  OwnThread<CameraView> beside_;  ///< of virtual time; last: its work uses all of the above
 };
 
 }  // namespace palpa::runtime

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "anatomy/base/enum_names.h"
+
 namespace palpa::runtime {
 
 /// What an event of a session tells; the value that goes with it.
@@ -34,6 +36,12 @@ enum class EventKind : std::uint8_t {
 };
 
 /// "ready", ..., "case", ...: in records, logs and on the wire.
-const std::string& nameOf(EventKind kind);
+inline const std::string& nameOf(EventKind kind) {
+  static const EnumNames<EventKind> kEventKinds{
+      "ready",   "start", "pause", "resume", "safety",   "emergency_stop", "rearm",    "device",
+      "camera",  "note",  "case",  "phase",  "puncture", "withdrawn",      "wall",     "vein",
+      "touched", "mark",  "grade", "let_go", "thing",    "answer",         "computer", "picture"};
+  return kEventKinds.of(kind);
+}
 
 }  // namespace palpa::runtime

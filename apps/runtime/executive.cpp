@@ -148,6 +148,7 @@ class RealExecutive final : public Executive {
 
   void run() override {
     stopped_.store(false);
+    for (auto& entry : entries_) entry->over.store(false);
     std::optional<os::MemoryLock> memory;
     if (std::any_of(entries_.begin(), entries_.end(),
                     [](const auto& e) { return e->policy.real_time; }))

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 #include "ar/codecs/codecs.h"
 

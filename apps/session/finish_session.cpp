@@ -45,9 +45,7 @@ bool owesFiles(const fs::path& folder) {
          !(fs::exists(folder / kReportName, none) && fs::exists(folder / kTableName, none));
 }
 
-fs::path wholePath(const fs::path& path) {
-  return fs::absolute(path).lexically_normal();
-}
+fs::path wholePath(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
 
 }  // namespace
 
@@ -97,10 +95,9 @@ void offerUnfinished() {
   if (std::exchange(offered, true)) return;
   const std::vector<fs::path> left = unfinishedSessions();
   if (left.empty()) return;
-  const std::string more = left.size() > 1
-                               ? "; " + counted(left.size() - 1, "more session") +
-                                     " likewise: palpa finish lists them"
-                               : "";
+  const std::string more = left.size() > 1 ? "; " + counted(left.size() - 1, "more session") +
+                                                 " likewise: palpa finish lists them"
+                                           : "";
   std::fprintf(stderr, "A session was not finished: %s. Its report and table: palpa finish %s%s\n",
                left.front().c_str(), left.front().c_str(), more.c_str());
 }
@@ -123,8 +120,7 @@ struct LeftSession {
 
 fs::path evidenceOf(const fs::path& given) {
   std::error_code none;
-  const fs::path file =
-      wholePath(fs::is_directory(given, none) ? given / kEvidenceName : given);
+  const fs::path file = wholePath(fs::is_directory(given, none) ? given / kEvidenceName : given);
   if (!fs::is_regular_file(file, none))
     throw UsageError("is not there", file.string(),
                      "Give the folder of a session, or its session.palpa; palpa finish alone lists "
@@ -189,11 +185,10 @@ std::vector<Trial> endedOnes(std::vector<Recorded> recorded, Judged judged) {
 
 void writeNeedle(const LeftSession& session, const ReportHead& head, const ReportTail& tail) {
   const evidence::RecordedSession recorded(session.evidence);
-  writeNeedleResults(
-      head,
-      endedOnes<task_needle::CompletedTrial>(recordedNeedles(recorded),
-                                             &evidence::RecordedNeedle::again),
-      tail, recorded.X_DA(), session.evidence);
+  writeNeedleResults(head,
+                     endedOnes<task_needle::CompletedTrial>(recordedNeedles(recorded),
+                                                            &evidence::RecordedNeedle::again),
+                     tail, recorded.X_DA(), session.evidence);
 }
 
 void writePalpation(const LeftSession& session, const ReportHead& head, const ReportTail& tail) {

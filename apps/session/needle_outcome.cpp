@@ -33,8 +33,7 @@ std::vector<report::TrialPage> pages(const std::vector<task_needle::CompletedTri
     if (forms && training::inAssessment(trial.assessment.role) && trial.assessment.by_path) {
       page.verdict = evidence::verdictOf(trial.assessment, *forms, {},
                                          evidence::standardOf(forms->checklist, 0));
-      page.certification =
-          competence::whatCannotBeCertified(static_cast<int>(trials.size()));
+      page.certification = competence::whatCannotBeCertified(static_cast<int>(trials.size()));
     }
     all.push_back(std::move(page));
   }

@@ -19,15 +19,15 @@ struct SessionResult : SessionRun {
 SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world,
                                const std::filesystem::path& folder);
 
-/// trials.csv and report.html beside the evidence, from trials as the session judged them or as they
-/// were judged again.
+/// trials.csv and report.html beside the evidence, from trials as the session judged them or as
+/// they were judged again.
 void writeNeedleResults(const ReportHead& head,
                         const std::vector<task_needle::CompletedTrial>& trials,
                         const ReportTail& tail, const Pose& X_DA,
                         const std::filesystem::path& evidence);
 
-/// The same of a session that has just ended and, for recorded pictures, registration.csv; then the last lines on
-/// standard output say what was written.
+/// The same of a session that has just ended and, for recorded pictures, registration.csv; then the
+/// last lines on standard output say what was written.
 void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
                   const SessionResult& result, const std::filesystem::path& folder);
 

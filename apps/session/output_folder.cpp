@@ -3,7 +3,7 @@
 #include <cerrno>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 #include "apps/record/session_file.h"
 #include "apps/record/store/delivery.h"

@@ -48,14 +48,15 @@ struct PalpationRun : SessionRun {
 PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& world,
                           const std::filesystem::path& folder);
 
-/// trials.csv and report.html beside the evidence, from trials as the session judged them or as they
-/// were judged again.
+/// trials.csv and report.html beside the evidence, from trials as the session judged them or as
+/// they were judged again.
 void writePalpationResults(const ReportHead& head,
                            const std::vector<task_palpation::CompletedPalpation>& trials,
                            const task_palpation::Scoring& scoring, const ReportTail& tail,
                            const std::filesystem::path& evidence);
 
-/// The same of a session that has just ended; the last lines on standard output say what was written.
+/// The same of a session that has just ended; the last lines on standard output say what was
+/// written.
 void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world,
                            const PalpationRun& run, const std::filesystem::path& folder);
 

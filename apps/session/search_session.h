@@ -47,7 +47,8 @@ void writeSearchResults(const ReportHead& head,
                         const std::vector<task_search::CompletedSearch>& trials,
                         const ReportTail& tail, const std::filesystem::path& evidence);
 
-/// The same of a session that has just ended; the last lines on standard output say what was written.
+/// The same of a session that has just ended; the last lines on standard output say what was
+/// written.
 void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
                         const SearchRun& run, const std::filesystem::path& folder);
 

@@ -8,6 +8,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
+#include "apps/report/page/style.h"
 
 namespace palpa::session {
 namespace {
@@ -134,7 +135,7 @@ void headOfOld(const record::SessionInfo& info, const json& session, ReportHead*
   const json task = parseJson(info.task_json), station = parseJson(info.station_json);
   const std::string who = session.value("operator", "");
   head->title = task.value("title", info.command);
-  head->trainee = who == "person" ? head->user_id
+  head->trainee = who == "person"     ? head->user_id
                   : who == "recorded" ? "recorded hand"
                                       : "simulated " + who;
   head->station = {{"Station", station.value("title", ""), station.value("id", "")},
@@ -185,6 +186,35 @@ ReportHead headIn(const record::SessionInfo& info, const std::string& file) {
                 file, "Restore the file from a backup");
   }
   return head;
+}
+
+using runtime::EventKind;
+
+namespace {
+
+/// "Touched: lung": lung.
+std::string meaning(const runtime::Event& event) {
+  if (!event.is(EventKind::touched) && !event.is(EventKind::wall)) return event.kind;
+  const std::size_t at = event.text.rfind(": ");
+  return at == std::string::npos ? event.kind : event.text.substr(at + 2);
+}
+
+}  // namespace
+
+std::string toneOfEvent(const runtime::Event& event) {
+  if (event.is(EventKind::note)) return "note";
+  if (event.is(EventKind::safety) && event.text == runtime::kForceIsBack) return "neutral";
+  switch (report::toneOfMoment(meaning(event))) {
+    case report::Tone::good:
+      return "good";
+    case report::Tone::guide:
+      return "guide";
+    case report::Tone::bad:
+      return "bad";
+    case report::Tone::neutral:
+      break;
+  }
+  return "neutral";
 }
 
 }  // namespace palpa::session

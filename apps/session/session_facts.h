@@ -6,6 +6,7 @@
 
 #include "apps/record/session_file.h"
 #include "apps/report/needle/session_report.h"
+#include "apps/runtime/flight_sink.h"
 #include "apps/session/session_frame.h"
 #include "apps/station/material_files.h"
 #include "apps/station/task_sections.h"
@@ -70,5 +71,9 @@ report::SubtaskSection partsOf(const report::SubtaskMeanings& meanings, const Tr
   }
   return section;
 }
+
+/// What an event means for the learner: "good", "guide", "bad", "neutral"; "note" of somebody's
+/// note. What was touched or pierced is told by its words, the rest by its kind.
+std::string toneOfEvent(const runtime::Event& event);
 
 }  // namespace palpa::session

@@ -1,9 +1,14 @@
 #include "apps/session/session_frame.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
 #include "anatomy/base/uuid.h"
+#include "apps/os/child_process.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/recorders.h"
-#include "apps/session/event_tone.h"
+#include "apps/session/session_facts.h"
 #include "apps/session/session_igtl.h"
 #include "apps/session/session_records.h"
 #include "apps/session/session_watch.h"
@@ -18,6 +23,35 @@ live::Hello helloOf(const SessionOptions& o, const station::Station& station,
   return {uuid,      o.task.empty() ? o.command : std::filesystem::path(o.task).stem().string(),
           o.trainee, isSimulated(o.who) || station.simulated,
           o.assess,  o.trials};
+}
+
+constexpr std::int64_t kEndPatience = 5 * runtime::kSecond;
+
+std::string listed(const runtime::Executive::Stuck& stuck) {
+  std::string all;
+  for (const std::string& name : stuck) all += (all.empty() ? "" : ", ") + partInWords(name);
+  return all;
+}
+
+/// The rest of a session of which something hangs: the evidence is closed, unless that hangs, and
+/// this program, anew, makes of it what the session owes.
+[[noreturn]] void leaveBehind(const runtime::Executive::Stuck& stuck,
+                              runtime::RecorderActivity& recorder, record::SessionWriter& writer,
+                              const std::filesystem::path& folder) {
+  std::fprintf(stderr, "palpa: %s did not answer at the end of the session and was left behind\n",
+               listed(stuck).c_str());
+  try {
+    if (std::find(stuck.begin(), stuck.end(), recorder.name()) == stuck.end()) {
+      recorder.finish();
+      writer.close();
+    }
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "palpa: %s\n", e.what());
+  }
+  os::becomeAnew({"finish", folder.string()});
+  std::fprintf(stderr, "palpa: the report was not made; palpa finish %s makes it\n",
+               folder.c_str());
+  std::_Exit(EXIT_FAILURE);
 }
 
 /// While it lives, a window that is gone ends the session and not the program.
@@ -159,6 +193,11 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   executive_->add(watch, {8, false, false});
   if (stop_key) executive_->add(*stop_key, {9, false, false});
   igtl.addTo(*executive_);
+  executive_->whenStuck(
+      [&](const runtime::Executive::Stuck& stuck) {
+        leaveBehind(stuck, recorder, writer, folder_);
+      },
+      kEndPatience);
   executive_->run();
   scene.finish(executive_->clock().now());
   recorder.finish();

@@ -35,13 +35,14 @@ struct SqueezeRun : SessionRun {
 SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
                       const std::filesystem::path& folder);
 
-/// trials.csv and report.html beside the evidence, from trials as the session judged them or as they
-/// were judged again.
+/// trials.csv and report.html beside the evidence, from trials as the session judged them or as
+/// they were judged again.
 void writeSqueezeResults(const ReportHead& head,
                          const std::vector<task_squeeze::CompletedSqueeze>& trials,
                          const ReportTail& tail, const std::filesystem::path& evidence);
 
-/// The same of a session that has just ended; the last lines on standard output say what was written.
+/// The same of a session that has just ended; the last lines on standard output say what was
+/// written.
 void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
                          const SqueezeRun& run, const std::filesystem::path& folder);
 

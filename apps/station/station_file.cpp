@@ -109,6 +109,13 @@ Mat3 supine() {
   return R;
 }
 
+void needFewPixels(const JsonFile& file, const Station& s) {
+  if (s.camera_rate_Hz * s.camera.width * s.camera.height > kMostPixelsPerSecond)
+    file.refuse("camera/rate_Hz",
+                "asks for more pixels a second than can be drawn: make the pictures smaller or "
+                "fewer");
+}
+
 // Of force: what the device can do bounds what the file may ask for.
 void readLimits(const JsonFile& file, Station& s) {
   const haptics::DeviceCapabilities& can = s.device.capabilities;
@@ -144,10 +151,7 @@ Station readStation(const std::filesystem::path& path) {
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
   const bool on_bench = s.camera_setup.driver ==
                         CameraDriver::bench;  // where a picture is seen before the next is taken
-  if (on_bench && s.camera_rate_Hz * s.camera.width * s.camera.height > kMostPixelsPerSecond)
-    file.refuse("camera/rate_Hz",
-                "asks for more pixels a second than can be drawn: make the "
-                "pictures smaller or fewer");
+  if (on_bench) needFewPixels(file, s);
   s.camera_latency_s =
       1e-3 * file.number("camera/latency_ms", 0, on_bench ? 1000 / s.camera_rate_Hz : 1000);
   s.simulated = on_bench || s.device.driver == DeviceDriver::bench;

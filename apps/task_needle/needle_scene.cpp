@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "anatomy/base/pinned_math.h"
 #include "apps/training/trial_words.h"
 #include "apps/trial/trial_scene.h"
 
@@ -132,7 +133,7 @@ std::optional<anatomy::SkinPush> SkinFollower::follow(const runtime::ToolState& 
     wanted = dragged(tool, axis, X_AD);
   }
   if (!push_) return push_;
-  push_->depth = wanted + (push_->depth - wanted) * std::exp(-dt / kRelaxing);
+  push_->depth = wanted + (push_->depth - wanted) * pinned::exp(-dt / kRelaxing);
   if (tool.phase == haptics::NeedlePhase::outside && std::abs(push_->depth) < kGone) push_.reset();
   return push_;
 }

@@ -10,6 +10,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::task_search {
 namespace {
 
@@ -78,19 +80,24 @@ void setBits(const cv::Mat& response, int direction, int scale, double threshold
 }  // namespace
 
 cv::Mat gaborKernel(int direction, int scale) {
-  const double sigma = std::exp2(scale), lambda = 4 * sigma,
-               t = 2 * std::numbers::pi * direction / GaborTable::kDirections;
+  const double sigma = std::ldexp(1.0, scale), lambda = 4 * sigma,
+               t = 2 * std::numbers::pi * direction / GaborTable::kDirections, c = pinned::cos(t),
+               s = pinned::sin(t);
   const int half = static_cast<int>(std::ceil(kCutoff * sigma / kGamma));
   cv::Mat kernel(2 * half + 1, 2 * half + 1, CV_64F);
+  double sum = 0;
   for (int j = -half; j <= half; ++j)
     for (int i = -half; i <= half; ++i) {
-      const double x = i * std::cos(t) + j * std::sin(t), y = -i * std::sin(t) + j * std::cos(t);
-      kernel.at<double>(j + half, i + half) =
-          std::exp(-(x * x + kGamma * kGamma * y * y) / (2 * sigma * sigma)) *
-          std::cos(2 * std::numbers::pi * x / lambda + std::numbers::pi / 2);
+      const double x = i * c + j * s, y = -i * s + j * c;
+      const double value = pinned::exp(-(x * x + kGamma * kGamma * y * y) / (2 * sigma * sigma)) *
+                           pinned::cos(2 * std::numbers::pi * x / lambda + std::numbers::pi / 2);
+      kernel.at<double>(j + half, i + half) = value;
+      sum += std::abs(value);
     }
-  cv::Mat normalised;
-  kernel.convertTo(normalised, CV_32F, 1 / cv::norm(kernel, cv::NORM_L1));
+  cv::Mat normalised(kernel.size(), CV_32F);  // by hand: OpenCV sums in the processor's order
+  for (int j = 0; j < kernel.rows; ++j)
+    for (int i = 0; i < kernel.cols; ++i)
+      normalised.at<float>(j, i) = static_cast<float>(kernel.at<double>(j, i) / sum);
   return normalised;
 }
 

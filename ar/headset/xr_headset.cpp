@@ -88,7 +88,8 @@ class XrHeadset final : public Headset {
   const std::array<EyeView, 2>& eyes() const override { return frame_.eyes; }
   std::string describe() const override { return name_; }
   std::string trouble() const override {
-    return silent_ ? std::string(kSilence) + "; the session goes on without it" : trouble_;
+    if (!silent_) return trouble_;
+    return std::string(kSilence).append("; the session goes on without it");
   }
   int silences() const override { return silences_; }
 

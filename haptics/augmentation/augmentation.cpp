@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::haptics {
 namespace {
 
@@ -74,14 +76,14 @@ Vec3 vibration(const ActiveAugmentation& p) noexcept {
   if (p.a.trigger != Augmentation::Trigger::none) {
     const double t = p.state.elapsed[p.i];
     if (t < 0 || p.a.tau_s <= 0 || t > kDecayed * p.a.tau_s) return Vec3::Zero();
-    size *= std::exp(-t / p.a.tau_s);
+    size *= pinned::exp(-t / p.a.tau_s);
   }
   double& way = p.state.way[p.i];
   const bool by_place = p.a.wavelength > 0;
   const Vec3 along = p.in.dp - p.in.dp.dot(p.in.up) * p.in.up;
   way += by_place ? along.norm() / p.a.wavelength : p.a.frequency_Hz * p.in.dt;
   way -= std::floor(way);
-  return p.weight() * size * std::sin(kTwoPi * way) * wayOf(p);
+  return p.weight() * size * pinned::sin(kTwoPi * way) * wayOf(p);
 }
 
 Vec3 attraction(const ActiveAugmentation& p, double steepest) noexcept {
@@ -140,7 +142,7 @@ bool running(const ActiveAugmentation& p) noexcept {
 }  // namespace
 
 double attractionForce(double amplitude, double d, double d_max, double radius) noexcept {
-  return d < 0 || d > d_max ? 0 : amplitude * (1 - std::cos(kTwoPi * d / d_max)) / radius;
+  return d < 0 || d > d_max ? 0 : amplitude * (1 - pinned::cos(kTwoPi * d / d_max)) / radius;
 }
 
 double attractionHeld(double amplitude, double d_max, double radius, double steepest) noexcept {

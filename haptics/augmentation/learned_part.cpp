@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::haptics {
 namespace {
 
@@ -13,7 +15,7 @@ double logDensity(const LearnedModel& model, std::size_t state, const LearnedRow
   double sum = 0;
   for (std::size_t d = 0; d < x.size(); ++d) {
     const double away = x[d] - model.mean[state][d], variance = model.variance[state][d];
-    sum -= 0.5 * (away * away / variance + std::log(variance));
+    sum -= 0.5 * (away * away / variance + pinned::log(variance));
   }
   return sum;
 }
@@ -34,7 +36,7 @@ void believe(const LearnedModel& model, const LearnedRow& x, LearnedState* state
   for (std::size_t j = 0; j < count; ++j) most = std::max(most, seen[j] = logDensity(model, j, x));
   double sum = 0;
   Belief next{};
-  for (std::size_t j = 0; j < count; ++j) sum += next[j] = before[j] * std::exp(seen[j] - most);
+  for (std::size_t j = 0; j < count; ++j) sum += next[j] = before[j] * pinned::exp(seen[j] - most);
   if (!std::isfinite(sum) || sum <= 0)
     return;  // what no state can explain, or no number: as before
   for (std::size_t j = 0; j < count; ++j) state->belief[j] = next[j] / sum;
@@ -59,10 +61,10 @@ void StepSums::add(double tip_speed, const Vec3& f, double dt) noexcept {
 LearnedRow StepSums::close() noexcept {
   const double n = ticks;
   LearnedRow row{};
-  row[kLogSpeed] = std::log(std::max(speed / n, kLeastSpeed));
-  row[kLogForce] = std::log(std::max(force / n, kLeastForce_N));
+  row[kLogSpeed] = pinned::log(std::max(speed / n, kLeastSpeed));
+  row[kLogForce] = pinned::log(std::max(force / n, kLeastForce_N));
   row[kInContact] = contact / n;
-  row[kLogShaking] = std::log(std::max(std::sqrt(shaking2 / n), kLeastShaking_N));
+  row[kLogShaking] = pinned::log(std::max(std::sqrt(shaking2 / n), kLeastShaking_N));
   const Packed3 slow = slow_force;
   *this = {};
   slow_force = slow;

@@ -1,8 +1,8 @@
 #include "haptics/contact/needle_contact.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "anatomy/base/pinned_math.h"
 #include "haptics/contact/needle_materials.h"
 
 namespace palpa::haptics {
@@ -20,7 +20,7 @@ constexpr double kStickShare = 0.8;     // presliding stiffness as a share of th
 double firstIndentation(const SkinLaw& skin, double K_c, double x) {
   const double floor = std::max(skin.u_0, 1e-5), slope = skin.K_0 * floor;
   if (!(slope > 0 && skin.m > 0)) return x;
-  return std::min(x, std::max(floor, skin.u_0 + std::log1p(K_c * x / slope) / skin.m));
+  return std::min(x, std::max(floor, skin.u_0 + pinned::log1p(K_c * x / slope) / skin.m));
 }
 
 /// Indentation u of the skin with F(u) = K_c (x - u), x the tip's depth: the skin's law in series
@@ -54,7 +54,7 @@ struct NeedleTick {
 };
 
 void decayRelease(NeedleTick& s) {
-  const double keep = std::exp(-s.dt / s.materials.skin.release_tau);
+  const double keep = pinned::exp(-s.dt / s.materials.skin.release_tau);
   s.state.release_D = pack(Vec3(keep * unpack(s.state.release_D)));
   s.push(unpack(s.state.release_D), s.pose.p_DT);
 }

@@ -1,3 +1,4 @@
+#include "anatomy/base/pinned_math.h"
 #include "haptics/loop/tick_frame.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ double lumpEdge(const TickConfig& config, const TickFrame& frame) noexcept {
   const Vec3 p_P = touchIn(config, frame.record.sensed).p_M;
   for (const PlacedLump& lump : frame.record.commands.lumps) {
     if (lump.kind < 1 || lump.kind > kMostLumpKinds) continue;
-    const double across = std::hypot(p_P.x() - lump.p_T0[0], p_P.y() - lump.p_T0[1]);
+    const double across = pinned::hypot(p_P.x() - lump.p_T0[0], p_P.y() - lump.p_T0[1]);
     nearest = std::min(nearest, across - config.lump_radius[lump.kind - 1]);
   }
   return nearest;
@@ -81,7 +82,7 @@ SignalValues signalsOf(const TickConfig& config, const TickState& state,
   signals[Signal::floor_contact] = touch->touching;
   signals[Signal::floor_texture] = touch->place.texture;
   const Vec3 v_F = FloorFrame(config).toF(unpack(state.tip.v_D));
-  signals[Signal::floor_speed] = std::hypot(v_F.x(), v_F.y()) / config.floor.unit;
+  signals[Signal::floor_speed] = pinned::hypot(v_F.x(), v_F.y()) / config.floor.unit;
   return signals;
 }
 

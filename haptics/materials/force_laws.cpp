@@ -1,7 +1,8 @@
 #include "haptics/materials/force_laws.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "anatomy/base/pinned_math.h"
 
 namespace palpa::haptics {
 namespace {
@@ -14,16 +15,16 @@ double factorOf(const HuntCrossley& law, double rate) noexcept {
 }  // namespace
 
 double forceOf(const HuntCrossley& law, double x, double rate) noexcept {
-  return x > 0 ? std::pow(x, law.m) * factorOf(law, rate) : 0;
+  return x > 0 ? pinned::pow(x, law.m) * factorOf(law, rate) : 0;
 }
 
 double depthOf(const HuntCrossley& law, double f, double rate) noexcept {
   const double factor = factorOf(law, rate);
-  return f > 0 && factor > 0 ? std::pow(f / factor, 1 / law.m) : 0;
+  return f > 0 && factor > 0 ? pinned::pow(f / factor, 1 / law.m) : 0;
 }
 
 double stiffnessOf(const HuntCrossley& law, double x, double rate) noexcept {
-  return x > 0 ? law.m * std::pow(x, law.m - 1) * factorOf(law, rate) : 0;
+  return x > 0 ? law.m * pinned::pow(x, law.m - 1) * factorOf(law, rate) : 0;
 }
 
 namespace {
@@ -51,7 +52,7 @@ Vec3 dragOf(const Dahl& law, const Vec3& dp, const Vec3& n, double f_n, double d
   Vec3 F = turnedInto(unpack(state->F), n);
   if (way > 0) {
     const Vec3 slid = limit / way * motion;
-    F = slid + std::exp(-law.sigma * way / limit) * (F - slid);
+    F = slid + pinned::exp(-law.sigma * way / limit) * (F - slid);
   }
   if (const double size = F.norm(); size > limit) F *= limit / size;
   state->F = pack(F);
@@ -68,8 +69,8 @@ double relaxed(const Relaxation& law, RelaxationState& state, double elastic, do
   for (int i = 0; i < Relaxation::kTerms; ++i) {
     if (law.g[i] == 0) continue;
     const double a = dt > 0 ? dt / law.tau[i] : 0.0;
-    const double kept = std::exp(-a);
-    const double share = a > 0 ? -std::expm1(-a) / a : 1.0;
+    const double kept = pinned::exp(-a);
+    const double share = a > 0 ? -pinned::expm1(-a) / a : 1.0;
     state.held[i] = kept * state.held[i] + law.g[i] * share * grown;
     force -= law.g[i] * elastic - state.held[i];
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::haptics {
 namespace {
 
@@ -45,7 +47,7 @@ Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, con
   const double wanted =
       law.target.constant > 0 ? law.target.constant * now.x : law.target.factor * now.f_n;
   now.f_d = (wanted - now.f_n) * now.u_n;
-  const double follows = state->f_n > 0 ? 1 - std::exp(-slid.norm() / kNormalFollows) : 0;
+  const double follows = state->f_n > 0 ? 1 - pinned::exp(-slid.norm() / kNormalFollows) : 0;
   const Vec3 between = u_before + follows * (now.u_n - u_before);
   state->u_n = pack(between.norm() > 0.1 ? Vec3(between.normalized())
                                          : now.u_n);  // where it has turned round

@@ -3,6 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "anatomy/base/pinned_math.h"
 
 namespace palpa::haptics {
 namespace {
@@ -14,15 +17,30 @@ constexpr double kBedFloor =
     1e-5;  // m: below, a bed's stiffness is taken from there, for at rest it may be zero
 constexpr int kMostHalvings = 8;
 
+/// x^(m - 1) at kBedFloor: of the beds of a lump that hardly moves, one power for all.
+class PowerAtFloor {
+ public:
+  double of(double m) noexcept {
+    if (m != m_) power_ = pinned::pow(kBedFloor, m - 1);
+    m_ = m;
+    return power_;
+  }
+
+ private:
+  double m_ = std::numeric_limits<double>::quiet_NaN(), power_ = 0;  // of none yet
+};
+
 /// A law with its rate as a backward difference from `before`: force, and its derivative by the
 /// depth.
 struct Implicit {
   double f = 0, slope = 0;
 };
-Implicit implicitly(const HuntCrossley& law, double x, double before, double dt) noexcept {
+Implicit implicitly(const HuntCrossley& law, double x, double before, double dt,
+                    PowerAtFloor* at_floor) noexcept {
   const double rate = (x - before) / dt, factor = law.k + law.b * rate,
                least = 0.1 * law.k;  // as forceOf and stiffnessOf have it, with one power for all
-  const double at = std::max(x, kBedFloor), power = std::pow(at, law.m - 1);
+  const double at = std::max(x, kBedFloor);
+  const double power = x > kBedFloor ? pinned::pow(x, law.m - 1) : at_floor->of(law.m);
   const double held = std::max(factor, least);
   Implicit i;
   i.f = x == at ? power * at * held : forceOf(law, x, rate);
@@ -54,12 +72,12 @@ class InclusionForces {
       from_surface_[t] = (tools[t].p_H + tools[t].x * tools[t].u_n - p_T0).norm();
   }
 
-  Balance at(const Vec3& d) const noexcept {
+  Balance at(const Vec3& d) noexcept {
     Balance b;
     for (int i = 0; i < 3; ++i) {
       const double side = d[i] < 0 ? -1 : 1;
-      const Implicit bed =
-          implicitly(lump_.G[static_cast<std::size_t>(i)], side * d[i], side * d_before_[i], dt_);
+      const Implicit bed = implicitly(lump_.G[static_cast<std::size_t>(i)], side * d[i],
+                                      side * d_before_[i], dt_, &at_floor_);
       b.left[i] = side * bed.f;
       b.slope(i, i) = bed.slope;
     }
@@ -68,14 +86,14 @@ class InclusionForces {
   }
 
  private:
-  void addTool(std::size_t t, const Vec3& d, Balance* b) const noexcept {
+  void addTool(std::size_t t, const Vec3& d, Balance* b) noexcept {
     const Vec3 line = tools_[t].p_H - (p_T0_ + d);
     const double apart = line.norm();
     if (!tools_[t].touching || apart < kNearestToLump || from_surface_[t] < kNearestToLump) return;
     const double scale = lump_.l0 / from_surface_[t];
     b->l[t] = std::max(scale * (from_surface_[t] - apart), 0.0);
     if (b->l[t] <= 0) return;
-    const Implicit felt = implicitly(lump_.H_T, b->l[t], l_before_[t], dt_);
+    const Implicit felt = implicitly(lump_.H_T, b->l[t], l_before_[t], dt_, &at_floor_);
     const Vec3 to_middle = line + tools_[t].radius * tools_[t].u_n;
     const double from_middle = std::max(to_middle.norm(), kNearestToLump);
     const Vec3 n = to_middle / from_middle;
@@ -92,6 +110,7 @@ class InclusionForces {
   Vec3 d_before_;
   std::array<double, 2> l_before_;
   std::array<double, 2> from_surface_{};
+  PowerAtFloor at_floor_;
 };
 
 bool usable(const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt,
@@ -113,12 +132,12 @@ InclusionAnswer feelInclusion(const VirtualInclusion& lump, const Vec3& p_T0,
     *state = {};
     return answer;
   }
-  const InclusionForces problem(lump, p_T0, tools, dt, *state);
+  InclusionForces problem(lump, p_T0, tools, dt, *state);
   Vec3 d = unpack(state->d);
   Balance now = problem.at(d);
   while (now.left.norm() > kLumpBalanced && answer.iterations < kMostInclusionIterations) {
     ++answer.iterations;
-    Vec3 step = -now.slope.partialPivLu().solve(now.left);
+    Vec3 step = -(now.slope.inverse() * now.left);
     if (!step.allFinite()) break;
     Balance next = problem.at(d + step);
     for (int i = 0; i < kMostHalvings && !(next.left.norm() < now.left.norm()); ++i) {

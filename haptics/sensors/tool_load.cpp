@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::haptics {
 
 Wrench toolWrench(const ToolLoad& tool, const SensorMotion& motion) noexcept {
@@ -22,7 +24,7 @@ namespace {
 Vec3 rotationVector(const Quat& q_a, const Quat& q_b) noexcept {
   const Quat d = q_a.conjugate() * q_b;
   const double s = d.vec().norm(), c = std::abs(d.w());
-  const double half_sinc = s < 1e-12 ? 1 : std::atan2(s, c) / s;
+  const double half_sinc = s < 1e-12 ? 1 : pinned::atan2(s, c) / s;
   return (d.w() < 0 ? -2 : 2) * half_sinc * d.vec();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/pinned_math.h"
 #include "anatomy/base/quantile.h"
 
 namespace palpa::haptics {
@@ -35,7 +36,7 @@ void GaborTable::set(int i, int j, int direction, int scale, bool rises) noexcep
 }
 
 int GaborTable::directionOf(double vx, double vy) noexcept {
-  const double steps = std::atan2(vy, vx) * (kDirections / kGaborTurn);
+  const double steps = pinned::atan2(vy, vx) * (kDirections / kGaborTurn);
   if (std::isnan(steps)) return 0;
   return static_cast<int>(std::floor(steps + 0.5)) & (kDirections - 1);  // -16 is 16
 }

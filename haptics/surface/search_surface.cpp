@@ -7,6 +7,7 @@
 #include <string>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/pinned_math.h"
 #include "haptics/surface/bump_pattern.h"
 
 namespace palpa::haptics {
@@ -25,10 +26,10 @@ TroughProfile::TroughProfile(double half_width, double depth, double bottom_radi
                              double lip_radius)
     : w_(half_width), depth_(depth), r_b_(bottom_radius), r_l_(lip_radius) {
   const double R = r_b_ + r_l_, up = R - depth_, flank2 = w_ * w_ + up * up - R * R;
-  theta_ = std::asin(R / std::sqrt(w_ * w_ + up * up)) - std::atan2(up, w_);
+  theta_ = pinned::asin(R / std::sqrt(w_ * w_ + up * up)) - pinned::atan2(up, w_);
   flank_ = std::sqrt(flank2);
-  sin_ = std::sin(theta_);
-  cos_ = std::cos(theta_);
+  sin_ = pinned::sin(theta_);
+  cos_ = pinned::cos(theta_);
   s_bottom_ = r_b_ * sin_;
   s_lip_ = w_ - r_l_ * sin_;
   const bool sizes = w_ > 0 && depth_ > 0 && r_b_ > 0 && r_l_ > 0 && flank2 >= 0;
@@ -121,8 +122,8 @@ std::array<std::array<double, 2>, SearchSurface::kElements> middlesOf(const Sear
   std::array<std::array<double, 2>, SearchSurface::kElements> middles;
   for (int e = 0; e < SearchSurface::kElements; ++e) {
     const double angle = orientation + e * kThirdOfATurn;
-    middles[static_cast<std::size_t>(e)] = {spec.circle * std::cos(angle),
-                                            spec.circle * std::sin(angle)};
+    middles[static_cast<std::size_t>(e)] = {spec.circle * pinned::cos(angle),
+                                            spec.circle * pinned::sin(angle)};
   }
   return middles;
 }

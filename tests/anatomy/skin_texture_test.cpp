@@ -4,7 +4,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/parametric/skin_texture.h"
-#include "anatomy/patient/gltf_picture.h"
+#include "anatomy/patient/gltf.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "test_shapes.h"
 

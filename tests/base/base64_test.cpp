@@ -1,4 +1,4 @@
-#include "anatomy/base/base64.h"
+#include "anatomy/base/text_forms.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "anatomy/base/csv.h"
+#include "anatomy/base/text_forms.h"
 
 #include <gtest/gtest.h>
 

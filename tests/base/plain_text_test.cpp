@@ -1,4 +1,4 @@
-#include "anatomy/base/plain_text.h"
+#include "anatomy/base/text_forms.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kMuch = 1000;
 
 TEST(PlainText, WhatIsReadStays) {
-  for (const char* text : {"", "it is full", "é ü ß 中文 λ 🙂", "~!\"#$%&'()*+,-./:;<=>?@[\\]^_`{|}"})
+  for (const char* text :
+       {"", "it is full", "é ü ß 中文 λ 🙂", "~!\"#$%&'()*+,-./:;<=>?@[\\]^_`{|}"})
     EXPECT_EQ(plainText(text, kMuch), text);
 }
 
@@ -20,9 +21,21 @@ TEST(PlainText, WhatATerminalWouldObeyIsShownAsAMark) {
   EXPECT_EQ(plainText("\x1b[2Jgone", kMuch), "?[2Jgone");
   EXPECT_EQ(plainText("a\r\nb\tc\ad\x7f", kMuch), "a??b?c?d?");
   EXPECT_EQ(plainText(std::string_view("a\0b", 3), kMuch), "a?b");
-  EXPECT_EQ(plainText("\xc2\x9b" "31m red", kMuch), "?31m red") << "a control sequence of one byte";
-  EXPECT_EQ(plainText("ab\xe2\x80\xae" "dc", kMuch), "ab?dc") << "written backwards from here";
-  EXPECT_EQ(plainText("a\xe2\x80\xa8" "b", kMuch), "a?b") << "another line end";
+  EXPECT_EQ(plainText("\xc2\x9b"
+                      "31m red",
+                      kMuch),
+            "?31m red")
+      << "a control sequence of one byte";
+  EXPECT_EQ(plainText("ab\xe2\x80\xae"
+                      "dc",
+                      kMuch),
+            "ab?dc")
+      << "written backwards from here";
+  EXPECT_EQ(plainText("a\xe2\x80\xa8"
+                      "b",
+                      kMuch),
+            "a?b")
+      << "another line end";
 }
 
 TEST(PlainText, WhatIsNoUtf8IsAMarkForEachByte) {
@@ -46,9 +59,8 @@ TEST(PlainText, OfAnyBytesNoneIsObeyed) {
     for (char& c : bytes) c = static_cast<char>(dice.below(256));
     const std::string plain = plainText(bytes, 40);
     EXPECT_LE(plain.size(), 40u);
-    EXPECT_TRUE(std::none_of(plain.begin(), plain.end(), [](unsigned char c) {
-      return c < 0x20 || c == 0x7f;
-    }));
+    EXPECT_TRUE(std::none_of(plain.begin(), plain.end(),
+                             [](unsigned char c) { return c < 0x20 || c == 0x7f; }));
     EXPECT_EQ(plainText(plain, 40), plain) << "once is enough";
   }
 }

@@ -20,5 +20,13 @@ TEST(Sha256, OfAFile) {
   EXPECT_THROW(sha256OfFile(folder / "missing"), UsageError);
 }
 
+/// Known answers of PBKDF2 with HMAC-SHA-256 (RFC 6070's inputs).
+TEST(Sha256, SlowlyWithSalt) {
+  EXPECT_EQ(slowSha256("password", "salt", 1),
+            "120fb6cffcf8b32c43e7225256c4f837a86548c92ccc35480805987cb70be17b");
+  EXPECT_EQ(slowSha256("password", "salt", 4096),
+            "c5e478d59288c841aa530db6845c4c8d962893a001ce4e11a4963873aa98134a");
+}
+
 }  // namespace
 }  // namespace palpa

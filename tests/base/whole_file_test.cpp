@@ -12,7 +12,6 @@
 #include <set>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
 #include "tests/support/files.h"
 
 namespace palpa {

@@ -1,4 +1,4 @@
-#include "apps/bench/metric.h"
+#include "apps/bench/timing.h"
 
 #include <gtest/gtest.h>
 

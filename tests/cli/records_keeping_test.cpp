@@ -107,7 +107,10 @@ TEST_F(RecordsKept, WhoseTimeIsOverIsListedAndDeletedOnlyWhenMeant) {
   EXPECT_EQ(run({"overdue", "--date", "2027-03-02", "--delete"}).exit_code, 2);
   EXPECT_EQ(record::RecordStore(file()).trainees().size(), 2u);
   const Outcome deleted = run({"overdue", "--date", "2027-03-02", "--delete", "--yes"});
-  EXPECT_EQ(deleted.exit_code, 0) << deleted.err;
+  EXPECT_EQ(deleted.exit_code, 1) << "their evidence is on another computer";
+  EXPECT_EQ(deleted.errLines(), 1) << deleted.err;
+  EXPECT_TRUE(says(deleted.out, "Still to be deleted where it was made: /home/somebody/out"))
+      << deleted.out;
   EXPECT_TRUE(record::RecordStore(file()).trainees().empty());
   EXPECT_EQ(run({"overdue", "--date", "soon"}).exit_code, 2);
 }

@@ -70,7 +70,7 @@ TEST(Records, APersonIsDeletedWithTheEvidence) {
   const Outcome deleted = records({"delete", "--id", "T007", "--yes"}, here);
   EXPECT_EQ(deleted.exit_code, 0) << deleted.err;
   EXPECT_FALSE(says(deleted.out, "Still to be deleted")) << deleted.out;
-  EXPECT_FALSE(std::filesystem::exists(here / "A/session.palpa"));
+  EXPECT_FALSE(std::filesystem::exists(here / "A")) << "with report, table and pictures";
   EXPECT_TRUE(says(records({"trainee", "list"}, here).out, "0 trainees"));
 }
 
@@ -113,9 +113,11 @@ TEST(Records, AnotherSessionsEvidenceIsNotDeleted) {
   std::filesystem::rename(here / "A/session.palpa", here / "moved.palpa");
   std::filesystem::rename(here / "B/session.palpa", here / "A/session.palpa");
   const Outcome deleted = records({"delete", "--id", "T007", "--yes"}, here);
-  EXPECT_EQ(deleted.exit_code, 0) << deleted.err;
+  EXPECT_EQ(deleted.exit_code, 1) << deleted.err;
   EXPECT_TRUE(says(deleted.out, "Still to be deleted")) << deleted.out;
+  EXPECT_TRUE(says(deleted.out, "another session's evidence is in its place")) << deleted.out;
   EXPECT_TRUE(std::filesystem::exists(here / "A/session.palpa"));
+  EXPECT_FALSE(std::filesystem::exists(here / "A/trials.csv")) << "names T007";
 }
 
 TEST(Records, WrongUsageIsNamed) {

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "anatomy/base/error.h"
-#include "apps/console/process_log.h"
+#include "apps/console/jobs.h"
 #include "apps/runtime/clock.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"

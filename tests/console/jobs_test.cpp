@@ -76,6 +76,9 @@ TEST(Jobs, WhatIsAskedForIsBegunOnceAndItsFailureToldOnce) {
   const std::string page = settled(report("a"));
   EXPECT_EQ(w.jobs->ask(report("a"))["id"], page);  // done long ago: not made again
   EXPECT_EQ(w.jobs->ask(report("a"))["state"], "done");
+  std::filesystem::remove_all(w.place.jobs() / page);  // with somebody who was deleted
+  EXPECT_EQ(w.jobs->ask(report("a"))["state"], "working");
+  EXPECT_NE(settled(report("a")), page) << "made anew";
   const JobRequest bad{"b", "Nothing", {"nonsense"}, "", {}};
   const std::string failed = settled(bad);
   const nlohmann::json told = w.jobs->ask(bad);

@@ -150,7 +150,8 @@ TEST(Lobby, AStopGoesItsOwnWayWhenAllOfItIsHere) {
   const std::string stop = kStop;
   visitor.say(stop.substr(0, stop.size() - 1));
   runtime::rest(100ms);
-  EXPECT_EQ(entrance.count(entrance.stops) + entrance.count(entrance.requests), 0u) << "a byte of it is missing";
+  EXPECT_EQ(entrance.count(entrance.stops) + entrance.count(entrance.requests), 0u)
+      << "a byte of it is missing";
   visitor.say(stop.substr(stop.size() - 1));
   const auto caller = entrance.next(entrance.stops);
   ASSERT_TRUE(caller);
@@ -201,8 +202,8 @@ TEST(Lobby, ManyAddressesTogetherHaveABoundToo) {
   Entrance entrance;
   std::vector<std::unique_ptr<Visitor>> silent;
   for (int i = 0; i < 150; ++i)
-    silent.push_back(std::make_unique<Visitor>(
-        entrance.port, ("127.0.1." + std::to_string(1 + i % 10)).c_str()));
+    silent.push_back(std::make_unique<Visitor>(entrance.port,
+                                               ("127.0.1." + std::to_string(1 + i % 10)).c_str()));
   ASSERT_TRUE(comesTo([&] { return entrance.away >= 150 - static_cast<int>(Lobby::kMost); }));
   const Visitor stranger(entrance.port, "127.0.0.9");
   stranger.say(kHead);

@@ -91,11 +91,11 @@ TEST_F(Stops, AStrangersIsNone) {
   EXPECT_EQ(statusOf(without(console().writeHeaders("{}"), "Host")), 421);
   EXPECT_EQ(console().raw(requestOf("GET", path(), console().readHeaders())).status, 404);
   EXPECT_TRUE(isNoted("/stop 403 requested by another site")) << "later, but it is";
-  EXPECT_EQ(console()
-                .raw(requestOf("POST", "/api/sessions/none/stop", console().writeHeaders("{}"),
-                               "{}"))
-                .status,
-            409);
+  EXPECT_EQ(
+      console()
+          .raw(requestOf("POST", "/api/sessions/none/stop", console().writeHeaders("{}"), "{}"))
+          .status,
+      409);
   EXPECT_TRUE(goesOn()) << "an emergency stop came through";
 }
 

@@ -158,7 +158,8 @@ TEST_F(Strangers, OneConnectionMayAskOften) {
   std::string all;
   const auto answers = [&all] {
     int count = 0;
-    for (std::size_t at = 0; (at = all.find("HTTP/1.1 200", at)) != std::string::npos; ++at) ++count;
+    for (std::size_t at = 0; (at = all.find("HTTP/1.1 200", at)) != std::string::npos; ++at)
+      ++count;
     return count;
   };
   for (int wanted = 3; wanted <= 6; ++wanted) {

@@ -81,7 +81,7 @@ TEST(Controller, EveryKnownKindIsBound) {
 }
 
 TEST(Controller, LeftHandedPeopleHoldItInTheLeft) {
-  HeadsetViewSetup setup;
+  HeadsetViewSetup setup = unhurried();
   setup.left_handed = true;
   Worn worn("eyes=64x64,64x64", 0.03, setup);
   bool tracked = false;

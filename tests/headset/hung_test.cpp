@@ -20,10 +20,9 @@ constexpr int kTries =
     30'000;  // a millisecond each at least: what does not hang does not need them
 
 HeadsetViewSetup impatient() {
-  HeadsetViewSetup setup;
+  HeadsetViewSetup setup = unhurried();
+  setup.patience.frame = std::chrono::milliseconds(100);
   setup.patience.silent = std::chrono::milliseconds(150);
-  setup.patience.opening = std::chrono::seconds(60);
-  setup.patience.closing = std::chrono::seconds(60);
   return setup;
 }
 
@@ -139,6 +138,22 @@ TEST(HungRuntime, WhoseProcessIsStoppedHoldsNobodyUpAndComesBack) {
   expectClean(worn.over(), "stopped");
 }
 
+/// One whose frames take longer than anybody waits for them loses none of them.
+TEST(HungRuntime, OneThatIsSlowShowsEveryFrame) {
+  for (const char* fault : {"none@1", "taken_off@3"}) {
+    HeadsetViewSetup setup = unhurried();
+    setup.patience.frame = std::chrono::milliseconds(10);
+    Worn worn(std::string("eyes=64x64,64x64;rate=6;fault=") + fault, 0.03, setup);
+    EXPECT_TRUE(goOnUntil(*worn.view, [&] { return worn.view->frames() >= 6; })) << fault;
+    EXPECT_EQ(worn.view->silences(), 0) << fault;
+    const auto shown = static_cast<int>(worn.view->frames());
+    const test::XrReport report = worn.over();
+    expectClean(report, fault);
+    EXPECT_EQ(calls(report, "layers"), shown) << fault;
+    EXPECT_LE(calls(report, "xrWaitFrame"), shown + 3) << fault << ": some frames at its end";
+  }
+}
+
 constexpr const char* kFolderOfParent = "PALPA_TEST_HUNG";
 
 /// In processes of their own: the loader gives no second instance where one is left behind.
@@ -212,7 +227,7 @@ TEST_F(HungDeathTest, ARuntimeThatHangsAtTheStartIsRefused) {
 /// With the patience of a session: ten frames a second go on meanwhile, and after two seconds the
 /// headset is silent. What it holds cannot be given back.
 bool isSilentByItself(const Hang&) {
-  Worn worn("eyes=64x64,64x64;fault=hung@6");
+  Worn worn("eyes=64x64,64x64;fault=hung@6", 0.03, HeadsetViewSetup{});
   return worn.show(100) == 6 && worn.view->trouble().find("does not answer") != std::string::npos &&
          !worn.view->wait(true);
 }

@@ -67,7 +67,7 @@ TEST(HeadsetPictures, BothEyesSeeTheBallWhereItIs) {
 /// The ball is a vein: where a presentation shows no anatomy, neither eye sees it.
 TEST(HeadsetPictures, WhatLiesInsideIsShownOnlyWhereItMayBe) {
   for (const bool inside : {true, false}) {
-    HeadsetViewSetup setup;
+    HeadsetViewSetup setup = unhurried();
     setup.inside = inside;
     Worn worn("blend=additive;eyes=640x600,640x600", kBall, std::move(setup));
     ASSERT_EQ(worn.show(3), 3);

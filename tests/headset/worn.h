@@ -9,8 +9,16 @@
 /// A headset of the test runtime on a head, before which a ball lies.
 namespace palpa::headset {
 
+/// Whoever waits as long as it takes: a busy computer takes no frame from a test.
+inline HeadsetViewSetup unhurried() {
+  HeadsetViewSetup setup;
+  setup.patience.frame = setup.patience.silent = setup.patience.opening = setup.patience.closing =
+      std::chrono::seconds(60);
+  return setup;
+}
+
 struct Worn {
-  explicit Worn(const std::string& plan, double ball = 0.03, HeadsetViewSetup setup = {})
+  explicit Worn(const std::string& plan, double ball = 0.03, HeadsetViewSetup setup = unhurried())
       : xr(PALPA_TEST_XR_JSON, plan), patient(test::spherePatient(setup.focus_A, ball)) {
     view = std::make_unique<HeadsetView>(patient, std::move(setup));
   }

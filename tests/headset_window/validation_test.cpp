@@ -24,7 +24,7 @@ TEST(HeadsetValidation, FiveHundredFramesWithoutAnError) {
   setenv("XR_ENABLE_API_LAYERS", "XR_APILAYER_LUNARG_core_validation", 1);
   setenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text", 1);
   setenv("XR_CORE_VALIDATION_FILE_NAME", errors.c_str(), 1);
-  worn.view = std::make_unique<HeadsetView>(worn.patient, HeadsetViewSetup{});
+  worn.view = std::make_unique<HeadsetView>(worn.patient, unhurried());
   worn.view->onHeld([&](const HeldController& held) {
     if (held.tracked && held.plunger > 0.5) worn.view->pulse(0.01, 0.5);
   });

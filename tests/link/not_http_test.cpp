@@ -101,7 +101,7 @@ TEST(NoHttp, APlainAnswerWhereAProtectedOneWasAskedFor) {
 
 using namespace std::chrono_literals;
 constexpr char kOk[] = "HTTP/1.1 200 OK\r\nX-Experience-API-Version: 1.0.3\r\n";
-constexpr char kTooLong[] = "the answer is longer than 1 MB",
+constexpr char kTooLong[] = "the answer is too long (at most 1 MB)",
                kTooSlow[] = "the answer did not end within the time allowed";
 constexpr std::size_t kNotMuch = 64u << 20;  // with what the system's buffers hold; endless is more
 
@@ -164,9 +164,10 @@ TEST(NoHttp, ALongAnswerIsTakenUpToItsBound) {
 TEST(NoHttp, ItsWordsAreShownWithoutWhatATerminalWouldObey) {
   const test::ScratchFolder folder("lrs_words");
   const std::string words = "\x1b]0;owned\x07\x1b[2J no room\xff\rsecond";
-  const Babbler babbler("HTTP/1.1 400 Bad\r\nX-Experience-API-Version: 1.0.3\r\nConnection: "
-                        "close\r\nContent-Length: " +
-                        std::to_string(words.size()) + "\r\n\r\n" + words);
+  const Babbler babbler(
+      "HTTP/1.1 400 Bad\r\nX-Experience-API-Version: 1.0.3\r\nConnection: "
+      "close\r\nContent-Length: " +
+      std::to_string(words.size()) + "\r\n\r\n" + words);
   Outbox outbox(folder / "xapi.sqlite");
   const Endpoint endpoint = endpointOf(babbler.url("http"), false);
   outbox.put({endpoint.text(), "records"},
@@ -174,8 +175,7 @@ TEST(NoHttp, ItsWordsAreShownWithoutWhatATerminalWouldObey) {
   LrsClient client(endpoint, {}, {5, 5});
   const Sent sent = sendWaiting(outbox, endpoint, client, {1, 0});
   ASSERT_EQ(sent.refused.size(), 1u);
-  EXPECT_EQ(sent.refused[0],
-            "session session, trial 1: it answers 400 (?]0;owned??[2J no room?)");
+  EXPECT_EQ(sent.refused[0], "session session, trial 1: it answers 400 (?]0;owned??[2J no room?)");
 }
 
 }  // namespace

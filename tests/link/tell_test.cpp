@@ -28,6 +28,7 @@ class Tell : public testing::Test {
   void SetUp() override {
     folder_ =
         test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name());
+    ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);  // where deletions are kept
     store_ = std::make_unique<record::RecordStore>((folder_ / "records.sqlite").string());
     for (const char* id : {"A", "B"}) store_->addTrainee(person(id));
     for (int i = 1; i <= kTrials / 2; ++i)
@@ -216,6 +217,20 @@ TEST_F(Tell, WhoWasDeletedIsTakenBack) {
   expectAllOnce(kTrials + kTrials / 2);
   const std::string left = test::slurp(folder_ / "state/xapi.sqlite");
   EXPECT_EQ(left.find("\"name\":\"A\""), std::string::npos);  // nothing of the person stays here
+}
+
+TEST_F(Tell, WhoComesAnewUnderTheSamePseudonymIsToldOf) {
+  queue();
+  send();
+  store_->deletePerson("A", "2026-04-01T00:00:00Z");
+  store_->addTrainee(person("A"));
+  record::StoredSession later = sessionOf("A", 7);
+  later.started_utc = "2026-05-01T10:00:00Z";
+  store_->addTrial(later, trialOf(1));
+  EXPECT_EQ(queue().added, 1);
+  EXPECT_EQ(link::takeBackDeleted(*store_, route(), *outbox()), kTrials / 2);
+  send();
+  EXPECT_FALSE(lrs_.stored().at(link::statementId(uuidOf(7), 1)).voided);
 }
 
 TEST_F(Tell, WhoIsDeletedBeforeAnythingWasSentIsNeverTold) {

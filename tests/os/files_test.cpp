@@ -6,7 +6,6 @@
 
 #include "anatomy/base/error.h"
 #include "apps/os/file_access.h"
-#include "apps/os/file_lock.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/setting.h"
 

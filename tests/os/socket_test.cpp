@@ -93,7 +93,7 @@ TEST(Socket, AddressesOfBothEnds) {
   EXPECT_FALSE(peerOf(-1));
 }
 
-TEST(Socket, ATcpConnectionSaysHowMuchCameAndSendsAtOnce) {
+TEST(Socket, AnAcceptedConnectionSendsAtOnceAndMayBeShared) {
   TcpListener listener("127.0.0.1", 0);
   TcpSocket caller = TcpSocket::connecting("127.0.0.1", listener.port());
   ASSERT_EQ(caller.connected(30'000), TcpSocket::Progress::done);
@@ -107,18 +107,11 @@ TEST(Socket, ATcpConnectionSaysHowMuchCameAndSendsAtOnce) {
   socklen_t size = sizeof on;
   ::getsockopt(here.descriptor(), IPPROTO_TCP, TCP_NODELAY, &on, &size);
   EXPECT_NE(on, 0);
-  EXPECT_EQ(bytesReceived(here.descriptor()), 0u);
-  const std::vector<std::uint8_t> bytes(1000);
-  EXPECT_EQ(caller.send(bytes), bytes.size());
-  std::vector<std::uint8_t> got(4096);
-  for (std::size_t sum = 0; sum < bytes.size();) sum += here.receive(got, 30'000);
-  EXPECT_EQ(bytesReceived(here.descriptor()), bytes.size());
   const int shared = sharedSocket(here.descriptor());
   ASSERT_GE(shared, 0);
-  EXPECT_EQ(bytesReceived(shared), bytes.size()) << "it is the same connection";
+  EXPECT_EQ(peerOf(shared)->port, peerOf(here.descriptor())->port) << "it is the same connection";
   closeSocket(shared);
   EXPECT_EQ(sendSome(here.descriptor(), "x", 1), 1u) << "and goes on without the second descriptor";
-  EXPECT_EQ(bytesReceived(-1), 0u);
 }
 
 TEST(Socket, AWakeUpIsReadyUntilItIsTaken) {

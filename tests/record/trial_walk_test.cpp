@@ -1,4 +1,4 @@
-#include "apps/record/trial_walk.h"
+#include "apps/record/session_file.h"
 
 #include <gtest/gtest.h>
 

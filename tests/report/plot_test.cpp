@@ -6,7 +6,7 @@
 #include <set>
 
 #include "apps/report/page/html.h"
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 #include "apps/report/plot/chart_frame.h"
 #include "apps/report/plot/svg_plot.h"
 

@@ -48,7 +48,7 @@ class Window : public testing::Test {
       all.keys = std::move(keys);
       all.wheel = wheel;
       if (enough(all)) break;
-      std::system("sleep 0.01");
+      EXPECT_EQ(std::system("sleep 0.01"), 0);
     }
     return all;
   }
@@ -72,6 +72,28 @@ TEST_F(Window, OpensAndShowsTheScene) {
   for (std::size_t i = 0; i + 2 < frame.pixels.size(); i += 3)
     shades.insert(frame.pixels[i] * 65536 + frame.pixels[i + 1] * 256 + frame.pixels[i + 2]);
   EXPECT_GT(shades.size(), 500u);
+}
+
+/// On a connection of its own: nobody polls the window meanwhile.
+TEST_F(Window, TheStopKeyIsHeardPastWhoeverDraws) {
+  SceneView view(*context_, patient_, {640, 480, FixedViews::three, true});
+  view.show({});
+  const std::unique_ptr<StopKey> key = context_->stopKey();
+  ASSERT_TRUE(key);
+  ASSERT_GE(key->descriptor(), 0);
+  ASSERT_TRUE(person("mousemove 123 45"));
+  ASSERT_TRUE(person("key a"));
+  ASSERT_TRUE(person("key space"));
+  bool pressed = false;
+  for (int i = 0; i < 300 && !pressed; ++i) {
+    pressed = key->pressed();
+    EXPECT_EQ(std::system("sleep 0.01"), 0);
+  }
+  EXPECT_TRUE(pressed);
+  EXPECT_FALSE(key->pressed()) << "one press is one";
+  ASSERT_TRUE(person("key b"));
+  EXPECT_EQ(std::system("sleep 0.2"), 0);
+  EXPECT_FALSE(key->pressed()) << "another key";
 }
 
 TEST_F(Window, HearsMouseKeysAndWheelAndNoKeyEndsTheProgram) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr double kProposedShare = 0.95;
-constexpr int kMostToldOf = 20;
+constexpr int kMostTakenTold = 20;
 
 struct Tally {
   int misspelt = 0, refused = 0, proposed = 0;
@@ -62,7 +62,7 @@ class Misspelt : public testing::Test {
   }
 
   void tell(const std::string& words) {
-    if (++told_ <= kMostToldOf) ADD_FAILURE() << words;
+    if (++told_ <= kMostTakenTold) ADD_FAILURE() << words;
   }
 
   void judge(const Kind& kind, const std::string& asset, const Mistyped& key) {

@@ -1,4 +1,4 @@
-#include "apps/session/kept_patient.h"
+#include "apps/session/needle_world.h"
 
 #include <gtest/gtest.h>
 

@@ -33,7 +33,9 @@ TEST_P(Backup, ThereAndBackIsTheSame) {
     EXPECT_EQ(trials[static_cast<std::size_t>(i - 1)].trial.metric("total"), 0.1 * i);
   EXPECT_TRUE(std::isnan(trials[0].trial.metric("closest_artery")));
   EXPECT_EQ(restored.events("u1", 1).at(1).text, "It's a note: ü");
-  EXPECT_THROW(restored.addTrainee(novice("C")), UsageError);  // who was deleted stays so
+  restored.addTrainee(novice("C"));  // anew; what was recorded before stays deleted
+  EXPECT_THROW(restored.addTrial(sessionOf("C", "u3"), trialOf(1)), PersonDeleted);
+  EXPECT_THROW(restored.addTrial(sessionOf("C", "u4"), trialOf(1)), PersonDeleted);
   EXPECT_EQ(restored.evidenceToDelete().size(), 1u);
 }
 

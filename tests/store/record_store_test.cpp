@@ -135,11 +135,16 @@ TEST_P(Store, DeletesAPersonForGood) {
   EXPECT_TRUE(store.events("u1", 1).empty());
   EXPECT_EQ(store.trials().size(), 1u);
   EXPECT_THROW(store.addTrial(sessionOf("A", "u1"), trialOf(1)), PersonDeleted);  // a late delivery
-  EXPECT_THROW(store.addTrainee(novice("A")), UsageError);
+  store.addTrainee(novice("A"));  // somebody may have this pseudonym anew
+  EXPECT_THROW(store.addTrial(sessionOf("A", "u1"), trialOf(1)), PersonDeleted);
+  StoredSession unknown = sessionOf("A", "u8"), later = sessionOf("A", "u9");
+  later.started_utc = "2026-04-01T00:00:01Z";
+  EXPECT_THROW(store.addTrial(unknown, trialOf(1)), PersonDeleted);  // from before the deletion
+  EXPECT_TRUE(store.addTrial(later, trialOf(1)));
   ASSERT_EQ(store.evidenceToDelete().size(), 1u);
   store.evidenceDeleted("u1");
   EXPECT_TRUE(store.evidenceToDelete().empty());
-  EXPECT_THROW(store.deletePerson("A", ""), UsageError);
+  EXPECT_THROW(store.deletePerson("C", ""), UsageError);
 }
 
 TEST_P(Store, KnowsWhoseTimeIsOver) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -23,6 +24,7 @@ class Store : public testing::TestWithParam<const char*> {
     for (char& c : name)
       if (c == '/') c = '_';
     folder = test::freshFolder("store", name);
+    ::setenv("XDG_STATE_HOME", (folder / "state").c_str(), 1);  // where deletions are kept
     url = (folder / "records.sqlite").string();
     if (!onServer()) return;
     if (const std::string why = test::PostgresServer::whyNot(); !why.empty()) GTEST_SKIP() << why;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <complex>
 #include <limits>
-
-#include <unsupported/Eigen/FFT>
+#include <numbers>
+#include <utility>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/pinned_math.h"
 
 namespace palpa::metrics {
 namespace {
@@ -81,8 +81,8 @@ std::vector<double> speedsOf(const Motion& motion) {
 std::vector<double> turningSpeedsOf(const Motion& motion) {
   std::vector<double> speeds;
   for (std::size_t i = 1; i < motion.size(); ++i)
-    speeds.push_back(std::atan2(motion.axis[i].cross(motion.axis[i - 1]).norm(),
-                                motion.axis[i].dot(motion.axis[i - 1])) /
+    speeds.push_back(pinned::atan2(motion.axis[i].cross(motion.axis[i - 1]).norm(),
+                                   motion.axis[i].dot(motion.axis[i - 1])) /
                      Motion::kStep_s);
   return speeds;
 }
@@ -109,17 +109,51 @@ int beginnings(const std::vector<double>& speeds, double threshold, double settl
   return count;
 }
 
+/// A signal's discrete Fourier transform (Cooley and Tukey 1965), of a power of two of samples. By
+/// hand, since libraries take their sines from the computer's.
+struct Spectrum {
+  std::vector<double> re, im;
+
+  explicit Spectrum(std::vector<double> signal) : re(std::move(signal)), im(re.size(), 0.0) {
+    reverseBits();
+    const std::size_t n = re.size();
+    std::vector<double> cosine(n / 2), sine(n / 2);
+    for (std::size_t k = 0; k < n / 2; ++k) {
+      const double turn = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
+      cosine[k] = pinned::cos(turn), sine[k] = -pinned::sin(turn);
+    }
+    for (std::size_t half = 1; half < n; half *= 2)
+      for (std::size_t i = 0; i < n; i += 2 * half)
+        for (std::size_t k = 0; k < half; ++k)
+          join(i + k, i + k + half, cosine[k * (n / 2 / half)], sine[k * (n / 2 / half)]);
+  }
+
+ private:
+  void join(std::size_t a, std::size_t b, double c, double s) {
+    const double x = re[b] * c - im[b] * s, y = re[b] * s + im[b] * c;
+    re[b] = re[a] - x, im[b] = im[a] - y;
+    re[a] += x, im[a] += y;
+  }
+  void reverseBits() {
+    for (std::size_t i = 1, j = 0; i < re.size(); ++i) {
+      std::size_t bit = re.size() / 2;
+      for (; j & bit; bit /= 2) j ^= bit;
+      j ^= bit;
+      if (i < j) std::swap(re[i], re[j]);
+    }
+  }
+};
+
 /// Amplitude spectrum from 0 to 10 Hz; padded with zeros to 16 times the motion's length, so that
 /// its arc is smooth.
 std::vector<double> amplitudes(const std::vector<double>& speeds) {
   std::vector<double> padded = speeds;
   padded.resize(std::bit_ceil(16 * speeds.size()), 0);
-  std::vector<std::complex<double>> spectrum;
-  Eigen::FFT<double>().fwd(spectrum, padded);
+  const Spectrum spectrum(padded);
   const double step_Hz = 1 / (Motion::kStep_s * static_cast<double>(padded.size()));
   std::vector<double> values;
   for (std::size_t k = 0; static_cast<double>(k) * step_Hz <= kSpectrumTo_Hz; ++k)
-    values.push_back(std::abs(spectrum[k]));
+    values.push_back(pinned::hypot(spectrum.re[k], spectrum.im[k]));
   return values;
 }
 
@@ -178,7 +212,7 @@ double spectralArcLength(const Motion& motion) {
   double arc = 0;
   const double step = 1 / static_cast<double>(last);
   for (std::size_t k = 1; k <= last; ++k)
-    arc += std::hypot(step, (spectrum[k] - spectrum[k - 1]) / spectrum[0]);
+    arc += pinned::hypot(step, (spectrum[k] - spectrum[k - 1]) / spectrum[0]);
   return -arc;
 }
 
@@ -188,7 +222,7 @@ double integratedJerk(const Motion& motion) {
   for (std::size_t i = 3; i < motion.size(); ++i) {
     const Vec3 third =
         motion.tip[i] - 3 * motion.tip[i - 1] + 3 * motion.tip[i - 2] - motion.tip[i - 3];
-    sum += third.squaredNorm() / std::pow(Motion::kStep_s, 6) * Motion::kStep_s;
+    sum += third.squaredNorm() / pinned::pow(Motion::kStep_s, 6) * Motion::kStep_s;
   }
   return std::sqrt(sum);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::assess {
 namespace {
 
@@ -23,7 +25,7 @@ void Syringe::add(const TrialSample& s, Tissue from, double before_s) {
   if (from != Tissue::air) of_ = from;
   const double rate = from == Tissue::vein_lumen ? kVenous
                       : from == Tissue::artery_lumen
-                          ? kArterial * (1 - std::cos(2 * M_PI * s.t_s / kPulse))
+                          ? kArterial * (1 - pinned::cos(2 * M_PI * s.t_s / kPulse))
                           : 0;
   if (rate > 0) blood_ = std::min(s.plunger, blood_ + rate * (s.t_s - before_s));
 }

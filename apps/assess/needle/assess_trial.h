@@ -9,7 +9,6 @@
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/training/trial_words.h"
 #include "calibration/expert_path.h"
-#include "calibration/teaching_line.h"
 
 namespace palpa::assess {
 

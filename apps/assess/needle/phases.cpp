@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::assess {
 
 using haptics::NeedlePhase;
@@ -50,8 +52,8 @@ Vec3 blended(const Vec3& from, const Vec3& to, double gain) {
 void PhaseDetector::smooth(const TrialSample& sample) {
   const double dt = sample.t_s - t_s_;
   const bool fresh = !started_ || dt < 0;
-  const double gain = fresh ? 1 : 1 - std::exp(-dt / rules_.smoothing_s);
-  const double slow_gain = fresh ? 1 : 1 - std::exp(-dt / rules_.steady_s);
+  const double gain = fresh ? 1 : 1 - pinned::exp(-dt / rules_.smoothing_s);
+  const double slow_gain = fresh ? 1 : 1 - pinned::exp(-dt / rules_.steady_s);
   started_ = true;
   t_s_ = sample.t_s;
   tip_ += gain * (sample.tip_A - tip_);

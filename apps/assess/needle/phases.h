@@ -1,9 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "anatomy/base/pinned_math.h"
 #include "apps/assess/needle/intervals.h"
 #include "apps/assess/needle/trial_assessment.h"
 
@@ -86,7 +86,7 @@ class PhaseDetector {
 
 /// Angle between two directions, radians, accurate at 0 and pi.
 inline double angleBetween(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return pinned::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 /// One pass: from a puncture of the skin to complete withdrawal or the end.

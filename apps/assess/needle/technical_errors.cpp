@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/pinned_math.h"
 #include "apps/assess/needle/wording.h"
 
 namespace palpa::assess {
@@ -211,7 +212,7 @@ void leftVein(const TrialReview& r, const ScoringRules& rules, Errors* errors) {
 Aim aimOf(const Vec3& axis_A, const anatomy::LandmarkFrame& frame,
           const calibration::TaughtPath& path) {
   const DirectionError error = comparedWith(frame.vectorToLandmarks(axis_A), path);
-  const double elevation = std::asin(std::clamp(frame.vectorToLandmarks(axis_A).y(), -1.0, 1.0));
+  const double elevation = pinned::asin(std::clamp(frame.vectorToLandmarks(axis_A).y(), -1.0, 1.0));
   return {error.steeper, std::abs(elevation) > kSteepest ? 0 : error.more_cephalad};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/pinned_math.h"
 #include "apps/training/trial_words.h"
 
 namespace palpa::assess {
@@ -12,8 +13,8 @@ namespace {
 constexpr double kFarthestEntry = 0.050;  // m: further off says nothing more
 constexpr double kWorstDirection = 5000;  // PHASE_2 of a trial without phase 2
 
-double elevation(const Vec3& d_L) { return std::asin(std::clamp(d_L.y(), -1.0, 1.0)); }
-double azimuth(const Vec3& d_L) { return std::atan2(d_L.z(), d_L.x()); }
+double elevation(const Vec3& d_L) { return pinned::asin(std::clamp(d_L.y(), -1.0, 1.0)); }
+double azimuth(const Vec3& d_L) { return pinned::atan2(d_L.z(), d_L.x()); }
 
 double distanceFromLine(const Vec3& p_L, const Vec3& from_L, const Vec3& along_L) {
   return (p_L - from_L).cross(along_L).norm();
@@ -27,7 +28,7 @@ DirectionError comparedWith(const Vec3& axis_L, const calibration::TaughtPath& p
   error.angle = angleBetween(axis_L, taught);
   error.steeper = elevation(axis_L) - elevation(taught);
   const double turn = std::remainder(azimuth(axis_L) - azimuth(taught), 2 * M_PI);
-  error.more_cephalad = turn * std::cos(elevation(axis_L));
+  error.more_cephalad = turn * pinned::cos(elevation(axis_L));
   error.value = 1000 * error.angle / path.direction_acceptable;
   return error;
 }

@@ -1,9 +1,10 @@
 #include "apps/assess/palpation/palpation_score.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <tuple>
+
+#include "anatomy/base/pinned_math.h"
 
 namespace palpa::assess {
 
@@ -80,7 +81,7 @@ void giveMarks(const PalpationRules& rules, const std::vector<CaseLump>& lumps,
 double fromQuadrant(const SearchArea& area, int side_x, int side_y, const Vec3& p) {
   const double x = side_x * p.x(), y = side_y * p.y();
   const double dx = std::max({-x, x - area.half_x, 0.0}), dy = std::max({-y, y - area.half_y, 0.0});
-  return std::hypot(dx, dy);
+  return pinned::hypot(dx, dy);
 }
 
 /// A lump on the line between two quarters is in both.

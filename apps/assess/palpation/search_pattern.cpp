@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::assess {
 namespace {
 
@@ -85,7 +87,8 @@ double spiral(const std::vector<Vec3>& places, double width) {
   double turned = 0, turning = 0, outward = 0, radial = 0;
   for (std::size_t i = 1; i < places.size(); ++i) {
     const Vec3 a = places[i - 1] - middle, b = places[i] - middle;
-    const double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.x() * b.x() + a.y() * b.y());
+    const double angle =
+        pinned::atan2(a.x() * b.y() - a.y() * b.x(), a.x() * b.x() + a.y() * b.y());
     turned += angle;
     turning += std::abs(angle);
     outward += b.head<2>().norm() - a.head<2>().norm();

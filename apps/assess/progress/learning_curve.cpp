@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/pinned_math.h"
 #include "anatomy/base/random.h"
 #include "apps/assess/statistics/bootstrap.h"
 #include "apps/assess/statistics/sample.h"
@@ -24,9 +25,9 @@ std::vector<Basis> basesFor(const std::vector<double>& n, std::size_t length) {
   std::vector<Basis> all;
   for (int i = 0; i < kConstants; ++i) {
     Basis basis;
-    basis.c = shortest * std::pow(longest / shortest, i / (kConstants - 1.0));
+    basis.c = shortest * pinned::pow(longest / shortest, i / (kConstants - 1.0));
     for (const double trial : n) {
-      basis.e.push_back(std::exp(-(trial - 1) / basis.c));
+      basis.e.push_back(pinned::exp(-(trial - 1) / basis.c));
       basis.sum += basis.e.back();
       basis.squares += basis.e.back() * basis.e.back();
     }
@@ -37,7 +38,7 @@ std::vector<Basis> basesFor(const std::vector<double>& n, std::size_t length) {
 
 struct CurveFit {
   double a = 0, b = 0, c = 1, left = 0;  ///< left: sum of squares about it
-  double at(double trial) const { return a + b * std::exp(-(trial - 1) / c); }
+  double at(double trial) const { return a + b * pinned::exp(-(trial - 1) / c); }
 };
 
 /// a and b for this c, in closed form.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "anatomy/base/pinned_math.h"
+
 namespace palpa::assess {
 
 const char* moreOf(SqueezedProperty property) {
@@ -38,23 +40,23 @@ constexpr double kLeastSd = 0.005,
 constexpr int kSteps = 600;
 constexpr double kWilks = 1.9207;  // half of chi-squared's 95 % for one parameter
 
-double phi(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+double phi(double z) { return 0.5 * pinned::erfc(-z / std::numbers::sqrt2); }
 
 double sdAt(int step) {
-  return kLeastSd * std::pow(kMostSd / kLeastSd, static_cast<double>(step) / kSteps);
+  return kLeastSd * pinned::pow(kMostSd / kLeastSd, static_cast<double>(step) / kSteps);
 }
 
 double likelihood(const std::vector<SharesAtRatio>& shares, double sd) {
   double sum = 0;
   for (const SharesAtRatio& share : shares) {
     const double p =
-        std::clamp(phi(std::log(share.ratio) / (std::numbers::sqrt2 * sd)), 1e-12, 1 - 1e-12);
-    sum += share.right * std::log(p) + (share.of - share.right) * std::log(1 - p);
+        std::clamp(phi(pinned::log(share.ratio) / (std::numbers::sqrt2 * sd)), 1e-12, 1 - 1e-12);
+    sum += share.right * pinned::log(p) + (share.of - share.right) * pinned::log(1 - p);
   }
   return sum;
 }
 
-double ratio75(double sd) { return std::exp(0.67449 * std::numbers::sqrt2 * sd); }
+double ratio75(double sd) { return pinned::exp(0.67449 * std::numbers::sqrt2 * sd); }
 
 std::optional<Threshold> thresholdOf(const Discrimination& answers) {
   if (answers.of < kFewestAnswers || answers.right == answers.of) return std::nullopt;

@@ -5,10 +5,8 @@
 #include <optional>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
-#include "apps/os/file_lock.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::record {

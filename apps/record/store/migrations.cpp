@@ -24,6 +24,27 @@ CREATE TABLE ratings(
 );
 )sql";
 
+// Of kSteps: deletions that a restored backup obeys.
+const char* const kDeletions = R"sql(
+CREATE TABLE records_identity(         -- a backup carries it, so that a list of deletions finds its records
+  one     BIGINT PRIMARY KEY,          -- 1: there is one row
+  records TEXT NOT NULL,               -- a random name
+  salt    TEXT NOT NULL                -- of the digests
+);
+
+CREATE TABLE deleted_people(           -- instead of `deletions`, whose rows are moved here
+  digest      TEXT NOT NULL,           -- slow and salted, of the pseudonym
+  deleted_utc TEXT NOT NULL,
+  PRIMARY KEY(digest, deleted_utc)     -- the pseudonym may be given anew, and deleted again
+);
+
+CREATE TABLE deleted_sessions(
+  session     TEXT PRIMARY KEY,
+  deleted_utc TEXT NOT NULL,
+  removed     BIGINT NOT NULL          -- 1: its evidence is gone as well
+);
+)sql";
+
 // Step i brings version i to i + 1. A step that was published is never changed; a change of the
 // tables is a further step.
 const char* const kSteps[] = {R"sql(
@@ -152,7 +173,7 @@ CREATE TABLE answers(
   FOREIGN KEY(study, trainee) REFERENCES enrolments(study, trainee) ON DELETE CASCADE
 );
 )sql",
-                              kRatings};
+                              kRatings, kDeletions};
 
 /// Of the newest version.
 const std::vector<std::pair<std::string, std::string>> kTables{
@@ -160,6 +181,9 @@ const std::vector<std::pair<std::string, std::string>> kTables{
      "id,group_name,experience,handedness,added_utc,consent_utc,research_utc,retain_until"},
     {"deletions", "digest,deleted_utc"},
     {"deleted_evidence", "session,evidence"},
+    {"records_identity", "one,records,salt"},
+    {"deleted_people", "digest,deleted_utc"},
+    {"deleted_sessions", "session,deleted_utc,removed"},
     {"sessions",
      "uuid,trainee,arrival,started_utc,software,task,station,simulated,study,slot,evidence,"
      "evidence_sha256,facts_json"},
@@ -231,7 +255,9 @@ std::string placeholders(std::size_t count) {
   return text;
 }
 
+/// Its name, which every store that was ever opened has, is given up for that of the other.
 void requireEmpty(SqlConnection& store) {
+  store.query("DELETE FROM records_identity");
   for (const std::string& table : tableNames())
     if (!store.query("SELECT 1 FROM " + table + " LIMIT 1").empty())
       throw UsageError("holds records already (" + table + ")", store.place(),

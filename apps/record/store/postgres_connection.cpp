@@ -91,6 +91,7 @@ class PostgresConnection final : public SqlConnection {
   }
   void lockSchema() override { query("SELECT pg_advisory_xact_lock($1)", {kSchemaLock}); }
   void freeze() override { script("SET TRANSACTION ISOLATION LEVEL REPEATABLE READ"); }
+  bool leaveNoTrace() override { return true; }
   bool hasTable(const std::string& name) override {
     return !query(
                 "SELECT 1 FROM information_schema.tables WHERE table_schema=current_schema() AND "

@@ -1,8 +1,11 @@
 #include "apps/record/store/record_store.h"
 
+#include <cctype>
 #include <charconv>
+#include <cstdio>
 #include <limits>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/sha256.h"
 #include "apps/record/store/migrations.h"
 
@@ -71,18 +74,36 @@ std::string whyNoPseudonym(const std::string& id) {
                 "digit";
 }
 
+bool mentions(std::string_view text, const std::string& id, bool strictly) {
+  const auto joins = [&](std::size_t at) {
+    const auto c = static_cast<unsigned char>(at < text.size() ? text[at] : ' ');
+    return std::isalnum(c) || (strictly && (c == '-' || c == '_'));
+  };
+  for (std::size_t at = text.find(id); at != std::string_view::npos; at = text.find(id, at + 1))
+    if ((at == 0 || !joins(at - 1)) && !joins(at + id.size())) return true;
+  return false;
+}
+
 RecordStore::RecordStore(std::unique_ptr<SqlConnection> connection)
-    : connection_(std::move(connection)) {
+    : connection_(std::move(connection)), deletions_(*connection_, "") {
   migrate(*connection_);
 }
-RecordStore::RecordStore(const std::string& url) : RecordStore(connect(url)) {}
+
+RecordStore::RecordStore(const std::string& url)
+    : connection_(connect(url)), deletions_(*connection_, url) {
+  migrate(*connection_);
+  const DeletedAgain again = deletions_.obey();
+  if (again.people + again.sessions == 0) return;
+  std::fprintf(
+      stderr, "Deleted again from the %s, into which a backup had brought them: %s, %s%s\n",
+      place().c_str(), counted(static_cast<std::size_t>(again.people), "deleted trainee").c_str(),
+      counted(static_cast<std::size_t>(again.sessions), "session").c_str(),
+      evidenceToDelete().empty() ? "" : "; their evidence: palpa records delete --left");
+}
 
 void RecordStore::addTrainee(const Trainee& trainee) {
   require(trainee);
   SqlTransaction transaction(*connection_);
-  if (wasDeleted(sha256(trainee.id)))
-    throw UsageError("was deleted on request, and late deliveries under this name are refused",
-                     "trainee " + trainee.id, "Choose another pseudonym");
   const SqlRows added = connection_->query(
       "INSERT INTO trainees(" + columnsOf("trainees") +
           ") VALUES($1,$2,$3,$4,$5,$6,$7,$8) ON CONFLICT(id) DO NOTHING RETURNING id",
@@ -119,7 +140,7 @@ std::vector<Trainee> RecordStore::trainees() {
 }
 
 bool RecordStore::wasDeleted(const std::string& digest) {
-  return !connection_->query("SELECT 1 FROM deletions WHERE digest=$1", {digest}).empty();
+  return !deletions_.lastDeletion(digest).empty();
 }
 
 std::vector<Trainee> RecordStore::overdue(const std::string& date) {
@@ -129,6 +150,16 @@ std::vector<Trainee> RecordStore::overdue(const std::string& date) {
       {date}));
 }
 
+/// A pseudonym that was given anew brings nothing back from before its deletion.
+void RecordStore::requireNotDeleted(const StoredSession& s) {
+  if (!deletions_.isDeleted(s.uuid)) {
+    const std::string last = deletions_.lastDeletion(sha256(s.trainee));
+    if (last.empty() || last < s.started_utc) return;
+  }
+  throw PersonDeleted("was deleted on request after this session had begun; the trial is refused",
+                      "trainee " + s.trainee, "Remove its evidence, too: " + s.evidence);
+}
+
 /// The trainee's row is locked by the update, so two stations number his sessions one after the
 /// other.
 void RecordStore::requireSession(const StoredSession& s) {
@@ -136,14 +167,15 @@ void RecordStore::requireSession(const StoredSession& s) {
           .empty()) {
     if (wasDeleted(sha256(s.trainee)))
       throw PersonDeleted("was deleted on request; the trial is refused", "trainee " + s.trainee,
-                          "Remove its evidence, too");
+                          "Remove its evidence, too: " + s.evidence);
     throw UsageError("is not in the records", "trainee " + s.trainee,
                      "Add it: palpa records trainee add --id " + s.trainee);
   }
   const SqlRows owner = connection_->query("SELECT trainee FROM sessions WHERE uuid=$1", {s.uuid});
-  if (owner.empty())
+  if (owner.empty()) {
+    requireNotDeleted(s);
     insertSession(s);
-  else if (owner.text(0, 0) != s.trainee)
+  } else if (owner.text(0, 0) != s.trainee)
     throw UsageError("belongs to another trainee", "session " + s.uuid,
                      "Two people cannot share a session; give each of them one");
 }
@@ -279,19 +311,30 @@ std::vector<StoredSession> RecordStore::deletePerson(const std::string& id,
     throw UsageError("is not in the records", "trainee " + id,
                      "palpa records trainee list shows who is in them");
   std::vector<StoredSession> theirs = sessions(id);
-  for (const StoredSession& s : theirs)
-    connection_->query(
-        "INSERT INTO deleted_evidence(session,evidence) VALUES($1,$2) ON CONFLICT(session) DO "
-        "NOTHING",
-        {s.uuid, s.evidence});
-  connection_->query("DELETE FROM sessions WHERE trainee=$1",
-                     {id});  // trials, metrics, events, calibrations go with them
+  std::vector<std::string> uuids;
+  for (const StoredSession& s : theirs) {
+    deleteSessionRows(*connection_, s.uuid, false);
+    uuids.push_back(s.uuid);
+  }
   connection_->query("DELETE FROM trainees WHERE id=$1", {id});
-  connection_->query(
-      "INSERT INTO deletions(digest,deleted_utc) VALUES($1,$2) ON CONFLICT(digest) DO NOTHING",
-      {sha256(id), now_utc});
+  deletions_.note(id, now_utc, uuids);
   transaction.commit();
+  settleDeletions();
   return theirs;
+}
+
+std::vector<std::string> RecordStore::settleDeletions() {
+  std::vector<std::string> troubles = deletions_.keepLists();
+  for (std::string& trouble : troubles)
+    trouble += "; until then a backup that is restored may bring back who was deleted";
+  const std::string remains = place() + ": bytes of what was deleted may remain in it (",
+                    later = "). Run later: palpa records delete --left";
+  try {
+    if (!connection_->leaveNoTrace()) troubles.push_back(remains + "others read it now" + later);
+  } catch (const Error& e) {
+    troubles.push_back(remains + e.what() + later);
+  }
+  return troubles;
 }
 
 std::vector<StoredSession> RecordStore::evidenceToDelete() {
@@ -306,7 +349,11 @@ std::vector<StoredSession> RecordStore::evidenceToDelete() {
 }
 
 void RecordStore::evidenceDeleted(const std::string& session) {
+  SqlTransaction transaction(*connection_);
+  deletions_.noteRemoved(session);
+  // also of a deletion by an older version, which knew no list
   connection_->query("DELETE FROM deleted_evidence WHERE session=$1", {session});
+  transaction.commit();
 }
 
 }  // namespace palpa::record

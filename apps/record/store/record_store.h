@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "apps/record/store/deletions.h"
 #include "apps/record/store/sql_connection.h"
 
 /// What the store keeps, as plain values. Times are UTC, ISO 8601 to the second; dates
@@ -73,8 +75,8 @@ struct StoredTrial {
   double metric(const std::string& name) const;  ///< not a number where it has none of that name
 };
 
-/// A trial of somebody whose records were deleted on request: it is refused, and its evidence is to
-/// be removed.
+/// A trial of somebody whose records were deleted on request, from before that: it is refused, and
+/// its evidence is to be removed.
 class PersonDeleted : public Error {
  public:
   using Error::Error;
@@ -96,14 +98,16 @@ struct TrialWithSession {
 /// and leaves nothing half done. One thread.
 class RecordStore {
  public:
-  /// Opens, makes or migrates. Throws Error for a store that is newer, damaged, refused; UsageError
-  /// for an address that is none.
+  /// Opens, makes or migrates; deletes again whoever came back with a backup, and says so on
+  /// standard error. Throws Error for a store that is newer, damaged, refused; UsageError for an
+  /// address that is none.
   explicit RecordStore(const std::string& url);
   explicit RecordStore(std::unique_ptr<SqlConnection> connection);
 
   std::string place() const { return connection_->place(); }
 
-  /// Throws UsageError for an id that is taken, malformed or was deleted.
+  /// Throws UsageError for an id that is taken or malformed. One that was deleted may be given
+  /// anew.
   void addTrainee(const Trainee& trainee);
   void changeTrainee(const Trainee& trainee);  ///< throws UsageError for one who is not there
   std::optional<Trainee> trainee(const std::string& id);
@@ -120,12 +124,15 @@ class RecordStore {
       const TrialFilter& filter = {});  ///< by trainee, arrival, number
   std::vector<StoredEvent> events(const std::string& session, std::int64_t number);
 
-  /// Removes all rows of a person and remembers that he was deleted; answers where the evidence of
-  /// his sessions lies. Throws UsageError for one who is not there.
+  /// Removes all rows of a person and remembers, without the name, that he was deleted; answers
+  /// where the evidence of his sessions lies. Throws UsageError for one who is not there.
   std::vector<StoredSession> deletePerson(const std::string& id, const std::string& now_utc);
   std::vector<StoredSession>
   evidenceToDelete();  ///< uuid and evidence only: of deleted persons, not yet removed
   void evidenceDeleted(const std::string& session);
+  /// After deleting: leaves no byte of it in the file, and keeps the lists that backups obey. In
+  /// words what could not be done; empty: all.
+  std::vector<std::string> settleDeletions();
   bool wasDeleted(const std::string& digest);  ///< SHA-256 of a pseudonym
   std::vector<Trainee> overdue(
       const std::string& date);  ///< whose retention ended before this date
@@ -136,10 +143,16 @@ class RecordStore {
   void requireSession(
       const StoredSession& session);  ///< of this trainee, made where it is not there
   void insertSession(const StoredSession& session);
+  void requireNotDeleted(const StoredSession& session);
   std::unique_ptr<SqlConnection> connection_;
+  Deletions deletions_;
 };
 
 /// Why a pseudonym cannot be one; empty: it can.
 std::string whyNoPseudonym(const std::string& id);
+
+/// Whether a text names this pseudonym, as a word: no letter or digit beside it; `strictly`:
+/// nothing that a longer pseudonym could go on with.
+bool mentions(std::string_view text, const std::string& id, bool strictly = false);
 
 }  // namespace palpa::record

@@ -52,6 +52,9 @@ class SqlConnection {
   virtual void
   lockSchema() = 0;           ///< within a transaction, to its end: nobody else changes the tables
   virtual void freeze() = 0;  ///< first in a transaction: all that it reads is of one moment
+  /// Outside a transaction: what was deleted leaves no byte in the file and its log. False: others
+  /// read in it now. Of a server nothing is done: its own clearing sees to that.
+  virtual bool leaveNoTrace() = 0;
   virtual bool hasTable(const std::string& name) = 0;
   virtual std::string place() const = 0;  ///< for messages; never a password
 };

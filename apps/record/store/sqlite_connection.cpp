@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "anatomy/base/file_trouble.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 #include "apps/record/sqlite.h"
 #include "apps/record/store/sql_connection.h"
@@ -78,6 +78,10 @@ class SqliteConnection final : public SqlConnection {
   }
   void lockSchema() override {}  // a transaction for writing has the file to itself
   void freeze() override {}
+  bool leaveNoTrace() override {
+    script("VACUUM");
+    return query("PRAGMA wal_checkpoint(TRUNCATE)", {}).integer(0, 0) == 0;
+  }
   bool hasTable(const std::string& name) override {
     return !query("SELECT 1 FROM sqlite_master WHERE type='table' AND name=$1", {name}).empty();
   }

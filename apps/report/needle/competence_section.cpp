@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 #include "apps/report/page/style.h"
 
 namespace palpa::report {

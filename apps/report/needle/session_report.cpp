@@ -7,7 +7,6 @@
 #include "apps/report/needle/trial_chart.h"
 #include "apps/report/needle/trial_sections.h"
 #include "apps/report/page/html.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/subtask_table.h"
 #include "apps/training/trial_words.h"

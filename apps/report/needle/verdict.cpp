@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "apps/report/needle/trial_sections.h"
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 #include "apps/report/plot/chart_frame.h"
 #include "apps/training/trial_words.h"
 

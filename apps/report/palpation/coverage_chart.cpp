@@ -2,7 +2,7 @@
 #include <array>
 
 #include "apps/assess/palpation/palpation_score.h"
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 #include "apps/report/palpation/palpation_charts.h"
 #include "apps/report/plot/chart_frame.h"
 

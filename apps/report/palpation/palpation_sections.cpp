@@ -6,7 +6,6 @@
 #include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/assess/palpation/palpation_words.h"
 #include "apps/assess/statistics/sample.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/palpation/palpation_charts.h"
 #include "apps/training/trial_words.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "apps/assess/palpation/coverage_map.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/palpation/palpation_charts.h"
 

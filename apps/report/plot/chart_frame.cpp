@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 
 namespace palpa::report {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "apps/assess/statistics/sample.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/plot/svg_plot.h"
 #include "apps/report/practice/practice_axes.h"

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/plot/chart_frame.h"
 #include "apps/report/plot/svg_plot.h"

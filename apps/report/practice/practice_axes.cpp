@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 #include "apps/report/plot/svg_plot.h"
 
 namespace palpa::report {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "apps/assess/progress/learning_curve.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/plot/chart_frame.h"
 #include "apps/report/plot/svg_plot.h"

@@ -7,7 +7,6 @@
 #include "anatomy/base/whole_file.h"
 #include "apps/assess/progress/competence.h"
 #include "apps/assess/progress/errors.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/practice/practice_page.h"
 #include "apps/report/practice/progress_words.h"

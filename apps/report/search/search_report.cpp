@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "anatomy/base/csv.h"
+#include "anatomy/base/text_forms.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/report/page/html.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/subtask_table.h"
 #include "apps/report/search/search_sections.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
 #include "apps/report/page/style.h"
 
 namespace palpa::report {

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/base/csv.h"
+#include "anatomy/base/text_forms.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/assess/squeeze/squeeze_trial.h"
 #include "apps/assess/statistics/sample.h"
 #include "apps/report/page/html.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/plot/chart_frame.h"
 #include "apps/training/trial_words.h"

@@ -4,7 +4,6 @@
 
 #include "anatomy/base/whole_file.h"
 #include "apps/report/page/html.h"
-#include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/study/study_exhibits.h"
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "anatomy/base/csv.h"
-#include "apps/report/page/numbers.h"
+#include "anatomy/base/text_forms.h"
+#include "apps/report/page/page_parts.h"
 
 namespace palpa::report {
 namespace {

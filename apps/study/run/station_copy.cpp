@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/file_trouble.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/whole_file.h"

@@ -6,6 +6,12 @@
 
 namespace palpa {
 
+/// RFC 4648 with padding, no line breaks.
+std::string base64(std::string_view bytes);
+
+/// A text as a field of a CSV, RFC 4180: quoted only where needed, quotes doubled.
+std::string csvField(const std::string& text);
+
 /// Text from elsewhere (a network, a log) as one line that may stand on a screen or in a terminal:
 /// control characters, line ends, marks that turn the direction of writing, and what is no UTF-8
 /// become '?'. At most `most` bytes, never half a character.

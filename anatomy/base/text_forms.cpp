@@ -1,10 +1,27 @@
-#include "anatomy/base/plain_text.h"
+#include "anatomy/base/text_forms.h"
 
+#include <openssl/evp.h>
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 namespace palpa {
+
+std::string base64(std::string_view bytes) {
+  std::string text((bytes.size() + 2) / 3 * 4, '\0');
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                  reinterpret_cast<const unsigned char*>(bytes.data()),
+                  static_cast<int>(bytes.size()));
+  return text;
+}
+
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 namespace {
 
 constexpr char32_t kNone = 0xffffffff;
@@ -45,7 +62,7 @@ Read firstOf(std::string_view text) {
 /// Of those that a terminal or a screen would obey rather than show.
 bool isObeyed(char32_t c) {
   constexpr std::pair<char32_t, char32_t> kRanges[] = {
-      {0x00, 0x1f},      {0x7f, 0x9f},      {0x61c, 0x61c},    {0x200e, 0x200f},
+      {0x00, 0x1f},     {0x7f, 0x9f},     {0x61c, 0x61c},   {0x200e, 0x200f},
       {0x2028, 0x202e}, {0x2060, 0x206f}, {0xfeff, 0xfeff}, {0xfff9, 0xfffb}};
   return std::any_of(std::begin(kRanges), std::end(kRanges),
                      [c](const auto& range) { return c >= range.first && c <= range.second; });

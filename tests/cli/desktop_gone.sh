@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# desktop_gone.sh PROGRAM: sessions in real time whose X server dies or hangs, whose window another
+# program destroys, whose terminal hangs up. Each ends in order, with report and table.
+# PALPA_FULL=1: 50 of each.
+set -uo pipefail
+palpa=$1
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/../package/expect.sh"
+for tool in Xvfb xdotool; do
+  command -v $tool >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
+done
+work=$(mktemp -d)
+server=0 program=0
+clean() {
+  kill -KILL $server $program 2>/dev/null
+  rm -rf "$work"
+}
+trap clean EXIT
+export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data
+sessions=1
+[ "${PALPA_FULL:-}" = 1 ] && sessions=50
+
+# until SECONDS COMMAND...: the command succeeds before that
+until_true() {
+  local left=$((10 * $1))
+  shift
+  until "$@" 2>/dev/null; do
+    [ $((left--)) -gt 0 ] || return 1
+    sleep 0.1
+  done
+}
+over() { ! kill -0 $program 2>/dev/null; }
+
+begin() {   # a session of a simulated expert, in a window of a display of its own
+  out=$work/$1
+  Xvfb -displayfd 3 -screen 0 1280x800x24 3>"$work/display" 2>/dev/null &
+  server=$!
+  until_true 20 test -s "$work/display"
+  export DISPLAY=:$(cat "$work/display")
+  "$palpa" paracentesis --display window --operator expert --trials 9 --quiet --out "$out" \
+    >"$out.said" 2>&1 &
+  program=$!
+  until_true 120 test -s "$out/session.palpa"
+  sleep 2
+}
+
+finished() {   # WORDS: the program ends by itself; nothing is owed
+  until_true 90 over
+  wait $program
+  local code=$?
+  expect "$1: ends in order" test $code = 0
+  expect "$1: report" test -s "$out/report.html"
+  expect "$1: table" test -s "$out/trials.csv"
+  [ $code = 0 ] || tail -n 5 "$out.said"
+  kill -KILL $server 2>/dev/null
+  wait $server 2>/dev/null
+}
+
+window() { xdotool search --onlyvisible --name '^Palpa$' | head -n 1; }
+
+for number in $(seq $sessions); do
+  begin "server-$number"
+  kill -KILL $server
+  finished "X server killed"
+
+  begin "destroyed-$number"
+  xdotool windowclose "$(window)"
+  finished "window destroyed"
+
+  begin "client-$number"
+  xdotool windowkill "$(window)"
+  finished "connection killed"
+
+  begin "terminal-$number"
+  kill -HUP $program
+  finished "terminal hung up"
+
+  begin "hung-$number"
+  kill -STOP $server
+  sleep 1
+  kill -TERM $program
+  finished "X server hangs"
+done
+finish
