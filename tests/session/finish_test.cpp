@@ -86,6 +86,7 @@ ReportHead exampleHead() {
   head.taxonomy = {{"What is seen", "real", ""}};
   head.station = {{"Station", "Bench", "bench-1"}, {"Time", "real", ""}};
   head.parts = {{"scan", "over the floor"}, {"stay", "in a pit"}};
+  head.doses = {{"scan", 0, 0, 0, 0}, {"any part", 0, 0, 0, 0}};
   return head;
 }
 
