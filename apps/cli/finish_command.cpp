@@ -37,7 +37,9 @@ void addFinish(CLI::App& program) {
       ->add_option("session", *given,
                    "A session's folder, or its session.palpa; without it, which there are")
       ->type_name("FOLDER");
-  command->add_flag("--again", *again, "Make both again, where they are there");
+  command->add_flag(
+      "--again", *again,
+      "Make both again, where they are there, without what only the running program knew");
   command->callback([given, again] {
     if (given->empty() && *again)
       throw UsageError("needs the folder of a session", "--again", "Say which one");

@@ -195,6 +195,19 @@ void command(Console& c, const std::string& id, const httplib::Request& request,
   answer(response, json::object(), 202);
 }
 
+/// Report and table of a session whose program died, by the command that makes them.
+void finish(Console& c, const std::string& id, httplib::Response& response) {
+  if (c.sessions.one(id)["state"] != "interrupted")
+    return refuse(response, 409, "the session owes no report: it is running, or it has one");
+  answer(response,
+         {{"job", c.jobs.add({"finish " + id,
+                              "Report of a session",
+                              {"finish", c.sessions.results(id).string()},
+                              "",
+                              {}})}},
+         202);
+}
+
 }  // namespace
 
 void addSessionRoutes(WebServer& server, Console& c) {
@@ -222,6 +235,12 @@ void addSessionRoutes(WebServer& server, Console& c) {
   server.Post(
       R"(/api/sessions/([A-Za-z0-9_-]{1,64})/stop)",
       [&c](const httplib::Request& q, httplib::Response& r) { stopNow(c, q.matches[1], r); });
+<<<<<<< HEAD
+  server.Post(
+      R"(/api/sessions/([A-Za-z0-9_-]{1,64})/finish)",
+      [&c](const httplib::Request& q, httplib::Response& r) { finish(c, q.matches[1], r); });
+=======
+>>>>>>> main
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/file/([A-Za-z0-9_.-]{1,80}))",
              [&c](const httplib::Request& q, httplib::Response& r) {
                const std::string name = q.matches[2];

@@ -172,6 +172,7 @@ ReportHead headOf(const SessionOptions& options, const NeedleWorld& world) {
   head.taxonomy = taxonomyFacts(world.task.taxonomy);
   head.station = stationFacts(options, world);
   head.parts = meaningsOf(world.task.augmentations);
+  head.doses = noDoses(world.tickConfig().augmentations, world.task.augmentations);
   return head;
 }
 
@@ -185,7 +186,7 @@ void writeNeedleResults(const ReportHead& head,
         trial.assessment.outcome != training::Outcome::voided)
       scored.push_back(trial.assessment);
   const std::filesystem::path folder = evidence.parent_path();
-  report::writeTrialsCsv(head.user_id, scored, folder / "trials.csv");
+  report::writeTrialsCsv(head.user_id, scored, folder / "trials.csv", head.doses);
   report::SessionReport page;
   page.title = head.title;
   page.trainee = head.trainee;

@@ -271,6 +271,7 @@ ReportHead PalpationWorld::head(const SessionOptions& options) const {
   head.station.push_back(surfaceFact(task.library));
   for (report::Fact& fact : lumpFacts(task.library)) head.station.push_back(std::move(fact));
   head.parts = meaningsOf(task.augmentations);
+  head.doses = noDoses(tickConfig(options).augmentations, task.augmentations);
   return head;
 }
 
@@ -284,7 +285,7 @@ void writePalpationResults(const ReportHead& head,
         training::countsAsScored(trial.assessment.facts.role))
       judged.push_back(trial.assessment);
   const std::filesystem::path folder = evidence.parent_path();
-  report::writePalpationCsv(head.user_id, judged, folder / "trials.csv");
+  report::writePalpationCsv(head.user_id, judged, folder / "trials.csv", head.doses);
   report::PalpationReport page;
   page.title = head.title;
   page.trainee = head.trainee;

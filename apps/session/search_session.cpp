@@ -222,6 +222,7 @@ ReportHead SearchWorld::head(const SessionOptions& options) const {
                           ""});
   for (report::Fact& fact : pullFacts(*this)) head.station.push_back(std::move(fact));
   head.parts = meaningsOf(task.augmentations);
+  head.doses = noDoses(tickConfig(options).augmentations, task.augmentations);
   return head;
 }
 
@@ -235,7 +236,7 @@ void writeSearchResults(const ReportHead& head,
     if (counts(trial.trial)) written.push_back(trial.trial);
   }
   const std::filesystem::path folder = evidence.parent_path();
-  report::writeSearchCsv(head.user_id, written, folder / "trials.csv");
+  report::writeSearchCsv(head.user_id, written, folder / "trials.csv", head.doses);
   page.title = head.title;
   page.trainee = head.trainee;
   page.simulated = head.simulated;

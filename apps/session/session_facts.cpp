@@ -8,6 +8,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
+#include "apps/assess/dose_counter.h"
 #include "apps/report/page/style.h"
 
 namespace palpa::session {
@@ -114,6 +115,13 @@ report::SubtaskMeanings meaningsOf(const station::NamedPlan& plan) {
   return meanings;
 }
 
+std::vector<assess::SubtaskDose> noDoses(const haptics::AugmentationPlan& on_device,
+                                         const station::NamedPlan& plan) {
+  assess::TrialDoses doses(on_device, plan.subtaskNames());
+  doses.begin(1);
+  return doses.doses();
+}
+
 namespace {
 
 using nlohmann::json;
@@ -153,6 +161,10 @@ void headOfNew(const json& report, ReportHead* head) {
   head->taxonomy = factsIn(report.at("taxonomy"));
   head->station = factsIn(report.at("station"));
   for (const json& part : report.at("parts")) head->parts.emplace_back(part.at(0), part.at(1));
+  for (const json& part : report.at("columns")) {
+    head->doses.emplace_back();
+    head->doses.back().subtask = part;
+  }
 }
 
 }  // namespace
@@ -160,6 +172,8 @@ void headOfNew(const json& report, ReportHead* head) {
 json jsonOf(const ReportHead& head) {
   json parts = json::array();
   for (const auto& [name, means] : head.parts) parts.push_back({name, means});
+  json columns = json::array();
+  for (const assess::SubtaskDose& dose : head.doses) columns.push_back(dose.subtask);
   return {{"title", head.title},
           {"trainee", head.trainee},
           {"force_note", head.force_note},
@@ -167,7 +181,8 @@ json jsonOf(const ReportHead& head) {
           {"too_hard_N", head.too_hard_N},
           {"taxonomy", jsonOf(head.taxonomy)},
           {"station", jsonOf(head.station)},
-          {"parts", parts}};
+          {"parts", parts},
+          {"columns", columns}};
 }
 
 ReportHead headIn(const record::SessionInfo& info, const std::string& file) {

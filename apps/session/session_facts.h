@@ -41,6 +41,8 @@ struct ReportHead {
   double too_hard_N = 0;              ///< of a comparison
   std::vector<report::Fact> taxonomy, station;
   report::SubtaskMeanings parts = {};  ///< of the task
+  /// of each part nothing yet: the columns of a table without a trial
+  std::vector<assess::SubtaskDose> doses = {};
 };
 /// What of it the rest of the evidence does not tell, for the session's text under "report".
 nlohmann::json jsonOf(const ReportHead& head);
@@ -56,6 +58,9 @@ struct ReportTail {
 
 /// Of the parts of a task what they mean.
 report::SubtaskMeanings meaningsOf(const station::NamedPlan& plan);
+/// What was given in them before the first trial. `on_device`: the plan as the loop runs with it.
+std::vector<assess::SubtaskDose> noDoses(const haptics::AugmentationPlan& on_device,
+                                         const station::NamedPlan& plan);
 
 /// The parts of a task for its report.
 template <typename Trials, typename Of>

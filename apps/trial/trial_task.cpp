@@ -131,10 +131,10 @@ void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_
   const Conclusion end = conclude(outcome, reason);
   const std::string& name = training::nameOf(outcome);
   note({now_ns, status_.trial, name, reason.empty() ? end.sentence : reason, 0});
+  picture("end", end.caption);
   bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, std::max(last_.t_ns, start_ns_), name,
                                                reason,
                                                outcome == Outcome::voided ? "" : end.scores_json});
-  picture("end", end.caption);
   status_.state = TrialState::ended;
   status_.notice = endNotice(status_.role, outcome, end.result);
   since_ns_ = now_ns;

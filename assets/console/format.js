@@ -41,7 +41,7 @@ const kSessionStates = {
   running: ["work", "on now"],
   finished: ["good", "finished"],
   failed: ["bad", "failed"],
-  interrupted: ["note", "interrupted"],
+  interrupted: ["note", "ended without a report"],
 };
 export const sessionState = (state) =>
   kSessionStates[state] || ["none", String(state || "unknown")];

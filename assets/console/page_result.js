@@ -1,6 +1,6 @@
 // One session that is over: verdict, trials, pictures, report; ways to replay and print.
-import { get, url } from "./api.js";
-import { h } from "./dom.js";
+import { get, post, url } from "./api.js";
+import { h, put } from "./dom.js";
 import {
   capital,
   clock,
@@ -13,7 +13,7 @@ import {
   taskName,
   who,
 } from "./format.js";
-import { badge, facts, notice, simulatedBadge, table } from "./parts.js";
+import { badge, button, facts, notice, progress, simulatedBadge, table } from "./parts.js";
 import { reportFrame } from "./report_frame.js";
 
 /** The one sentence that comes first. */
@@ -21,7 +21,7 @@ function verdict(session) {
   const results = session.results || [];
   if (session.state === "failed") return ["bad", session.message || "The session failed."];
   if (session.state === "interrupted")
-    return ["note", `The session was interrupted. ${session.message || ""}`];
+    return ["note", `The session ended without a report. ${session.message || ""}`];
   const counting = results.filter((r) => r.outcome !== "void"),
     good = counting.filter((r) => r.outcome === "success");
   if (counting.length === 0)
@@ -97,7 +97,25 @@ function pictures(session, files) {
   ];
 }
 
-export async function show({ root, params: [id], open }) {
+/** Makes the report of a session whose program died, and shows the page anew when it is there. */
+function finish(life, id) {
+  const place = h("div", { class: "row no-print" });
+  const make = button("Make the report", async () => {
+    const { job } = await post(url("/api/sessions", id, "finish"), {});
+    put(place, progress("The report is being made"));
+    await life.every(700, async () => {
+      const now = await get(url("/api/jobs", job));
+      if (now.state === "working") return true;
+      if (now.state === "done") location.reload();
+      else put(place, notice("bad", now.message || "The report could not be made."), make);
+      return false;
+    });
+  });
+  put(place, make);
+  return place;
+}
+
+export async function show({ root, life, params: [id], open }) {
   const session = await get(url("/api/sessions", id));
   if (isOn(session)) {
     location.replace(`#/session/${encodeURIComponent(id)}`);
@@ -115,6 +133,7 @@ export async function show({ root, params: [id], open }) {
     files = Array.isArray(session.files) ? session.files : [],
     results = Array.isArray(session.results) ? session.results : [];
   root.append(h("div", { class: "verdict" }, notice(tone === "bad" ? "bad" : tone, text)));
+  if (session.state === "interrupted") root.append(finish(life, id));
   root.append(
     h(
       "div",

@@ -140,6 +140,20 @@ TEST_F(TheEnd, ASessionThatIsKilledIsSaidInWords) {
   EXPECT_EQ(one.json()["state"], "interrupted");
   EXPECT_NE(one.json()["message"], "");
   EXPECT_EQ(console().post("/api/sessions/" + id + "/command", {{"command", "pause"}}).status, 409);
+
+  const Answer asked = console().post("/api/sessions/" + id + "/finish", json::object());
+  ASSERT_EQ(asked.status, 202) << asked.body;
+  const std::string job = "/api/jobs/" + asked.json()["job"].get<std::string>();
+  json made;
+  ASSERT_TRUE(
+      inTime([&] { return (made = console().get(job).json()).value("state", "") != "working"; }));
+  EXPECT_EQ(made["state"], "done") << made.dump();
+  const json finished = console().get("/api/sessions/" + id).json();
+  EXPECT_EQ(finished["state"], "finished");
+  EXPECT_EQ(finished["message"], "");
+  EXPECT_EQ(console().get("/api/sessions/" + id + "/file/report.html").status, 200);
+  EXPECT_EQ(console().post("/api/sessions/" + id + "/finish", json::object()).status, 409)
+      << "nothing is owed any more";
 }
 
 }  // namespace

@@ -149,9 +149,10 @@ std::string row(const std::string& user_id, const assess::TrialAssessment& trial
 }  // namespace
 
 void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
-                    const std::filesystem::path& file) {
-  const std::vector<assess::SubtaskDose> parts =
-      trials.empty() ? std::vector<assess::SubtaskDose>() : trials.front().doses;
+                    const std::filesystem::path& file,
+                    const std::vector<assess::SubtaskDose>& parts_of_none) {
+  const std::vector<assess::SubtaskDose>& parts =
+      trials.empty() ? parts_of_none : trials.front().doses;
   std::string csv = kHeader + subtaskColumns(parts) + '\n';
   for (const auto& trial : trials)
     csv += row(user_id, trial) + subtaskFields(parts, trial.doses) + '\n';

@@ -52,9 +52,10 @@ void writeReport(const SessionReport& report, const std::filesystem::path& file)
 /// trials.csv: header row, then one row a trial: USER_ID FF COL_LUNG COL_RIB COL_ART COL_VEIN
 /// PHASE_1 PHASE_2 ECON_MEAN ECON_VAR TIME SUCCESS TRIAL SEED SIMULATED TOTAL AUGMENTED (cues were
 /// added to the forces) RULES (the version that it was scored by), then of each part of the task
-/// what subtaskColumns says; empty: what a task with a goal of its own has not. No date, path or
-/// host timing.
+/// what subtaskColumns says (without a trial, of `parts_of_none`); empty: what a task with a goal
+/// of its own has not. No date, path or host timing.
 void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
-                    const std::filesystem::path& file);
+                    const std::filesystem::path& file,
+                    const std::vector<assess::SubtaskDose>& parts_of_none = {});
 
 }  // namespace palpa::report

@@ -148,9 +148,10 @@ std::string palpationRow(const std::string& user_id, const assess::PalpationAsse
 
 void writePalpationCsv(const std::string& user_id,
                        const std::vector<assess::PalpationAssessment>& trials,
-                       const std::filesystem::path& file) {
-  const std::vector<assess::SubtaskDose> parts =
-      trials.empty() ? std::vector<assess::SubtaskDose>() : trials.front().doses;
+                       const std::filesystem::path& file,
+                       const std::vector<assess::SubtaskDose>& parts_of_none) {
+  const std::vector<assess::SubtaskDose>& parts =
+      trials.empty() ? parts_of_none : trials.front().doses;
   std::string csv = kPalpationHeader + subtaskColumns(parts) + '\n';
   for (const auto& trial : trials)
     csv += palpationRow(user_id, trial) + subtaskFields(parts, trial.doses) + '\n';

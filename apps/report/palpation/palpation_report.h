@@ -59,9 +59,10 @@ void writePalpationReport(const PalpationReport& report, const std::filesystem::
 ///   SIZE_ERROR_MEAN_MM               said less true, with sign, of those graded
 ///   AT_STANDARD                      this trial; nobody passes by one
 ///   AUGMENTED                        cues were added to the forces
-/// then of each part of the task what subtaskColumns says.
+/// then of each part of the task what subtaskColumns says (without a trial, of `parts_of_none`).
 void writePalpationCsv(const std::string& user_id,
                        const std::vector<assess::PalpationAssessment>& trials,
-                       const std::filesystem::path& file);
+                       const std::filesystem::path& file,
+                       const std::vector<assess::SubtaskDose>& parts_of_none = {});
 
 }  // namespace palpa::report

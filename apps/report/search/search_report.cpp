@@ -110,9 +110,10 @@ std::string episodeFields(const assess::SearchTrial& t) {
 }  // namespace
 
 void writeSearchCsv(const std::string& user_id, const std::vector<assess::SearchTrial>& trials,
-                    const std::filesystem::path& file) {
-  const std::vector<assess::SubtaskDose> parts =
-      trials.empty() ? std::vector<assess::SubtaskDose>{} : trials.front().doses;
+                    const std::filesystem::path& file,
+                    const std::vector<assess::SubtaskDose>& parts_of_none) {
+  const std::vector<assess::SubtaskDose>& parts =
+      trials.empty() ? parts_of_none : trials.front().doses;
   std::string csv =
       "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,BLOCK,MODE,ORIENTATION_DEG,TARGET,CHOSEN,FOUND,TIME_"
       "S,PATH_M,MEAN_N,PEAK_N,VISIT_0_S,VISIT_1_S,VISIT_2_S" +

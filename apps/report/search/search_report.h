@@ -35,10 +35,12 @@ void writeSearchReport(const SearchReport& report, const std::filesystem::path& 
 ///   TARGET CHOSEN                    elements, 0 to 2; -1: none
 ///   FOUND TIME_S PATH_M MEAN_N PEAK_N
 ///   VISIT_0_S VISIT_1_S VISIT_2_S    on each element
-/// and for every part of the task that the first episode has a dose of, <NAME> in capitals with _
-/// for whatever is no letter or digit (empty in an episode without that part):
+/// and for every part of the task that the first episode has a dose of (without one, of
+/// `parts_of_none`), <NAME> in capitals with _ for whatever is no letter or digit (empty in an
+/// episode without that part):
 ///   <NAME>_ON_S <NAME>_TIMES <NAME>_AUGMENTED_S <NAME>_IMPULSE_NS
 void writeSearchCsv(const std::string& user_id, const std::vector<assess::SearchTrial>& trials,
-                    const std::filesystem::path& file);
+                    const std::filesystem::path& file,
+                    const std::vector<assess::SubtaskDose>& parts_of_none = {});
 
 }  // namespace palpa::report
