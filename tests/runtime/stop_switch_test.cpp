@@ -128,7 +128,7 @@ TEST(StopSwitch, TheTickOfThePressHasNoForceAlreadyAndOnlyReArmingBringsItBack) 
   }
   const haptics::FlightRecord last = loop.recorded().back();
   EXPECT_GT(unpack(last.f_command_D).norm(), 0.1)
-      << whyText(last.safety) << " " << unpack(last.f_contact_D).transpose() << " phase "
+      << static_cast<int>(last.safety) << " " << unpack(last.f_contact_D).transpose() << " phase "
       << static_cast<int>(last.phase) << " armed " << int(last.commands.armed);
 }
 
