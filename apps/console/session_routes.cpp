@@ -235,12 +235,9 @@ void addSessionRoutes(WebServer& server, Console& c) {
   server.Post(
       R"(/api/sessions/([A-Za-z0-9_-]{1,64})/stop)",
       [&c](const httplib::Request& q, httplib::Response& r) { stopNow(c, q.matches[1], r); });
-<<<<<<< HEAD
   server.Post(
       R"(/api/sessions/([A-Za-z0-9_-]{1,64})/finish)",
       [&c](const httplib::Request& q, httplib::Response& r) { finish(c, q.matches[1], r); });
-=======
->>>>>>> main
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/file/([A-Za-z0-9_.-]{1,80}))",
              [&c](const httplib::Request& q, httplib::Response& r) {
                const std::string name = q.matches[2];
