@@ -106,7 +106,7 @@ TEST(ReplayView, WrongWishesAreNamed) {
   complains({"--video", "c.avi", "--from", "9999"}, "The trial lasts");
   complains({"--video", "c.avi", "--size", "big"}, "1280x720");
   complains({"--video", "c.avi", "--speed", "0"}, "speed");
-  complains({"--video", "c.avi", "--from", "nan"}, "The trial lasts");
+  complains({"--video", "c.avi", "--from", "nan"}, "--from needs a number of 0 s or more");
   complains({"--video", "c.avi", "--view"}, "do not go together");
   complains({"--from", "1"}, "Add --view");
   EXPECT_FALSE(std::filesystem::exists(recordedNeedle() / "c.avi"));

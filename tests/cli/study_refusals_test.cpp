@@ -105,6 +105,7 @@ TEST_F(Study, WrongUsageIsNamed) {
   };
   complains({}, "needs --trainee or --simulate");
   complains({"--simulate"}, "needs --learning");
+  here.file("x.json", "{}");
   complains({"--trainee", "T001", "--learning", "x.json"}, "goes with --simulate only");
   complains({"--trainee", "T001", "--simulate", "2"}, "exclude each other");
   complains({"--trainee", "Dr. Smith"}, "pseudonym");
