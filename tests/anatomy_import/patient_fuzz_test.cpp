@@ -229,7 +229,7 @@ TEST(MapFuzz, HarmedMapsAreReadOrRefused) {
   int read = 0, refused = 0;
   for (int i = 0; i < cases(); ++i) {
     const std::string harmed = i % 2 ? absurd(sound, dice) : flipped(whole, dice, whole.size());
-    ++(readOrRefused("map: ",
+    ++(readOrRefused("map",
                      [&] {
                        for (const MapEntry& entry : parseImportMap(harmed, "map").entries)
                          ASSERT_TRUE(entry.place(Vec3::Ones()).allFinite());
