@@ -104,7 +104,8 @@ Known::Known(const std::string& manual) {
     const bool head = line.starts_with("\\fB");
     line = withoutFonts(line);
     if (line.starts_with(".SH")) command.clear();
-    if (line.starts_with(".SS palpa ")) options_[command = line.substr(10)] = {"--help", "--verbose"};
+    if (line.starts_with(".SS palpa "))
+      options_[command = line.substr(10)] = {"--help", "--verbose"};
     if (head && line.starts_with("-") && !command.empty())
       for (std::sregex_iterator it(line.begin(), line.end(), option), end; it != end; ++it)
         options_[command].insert(it->str());

@@ -203,7 +203,8 @@ TEST(Addresses, AreToldApart) {
   EXPECT_FALSE(says(messageOf([] { connect("postgresql://host/db?password=geheim"); }), "geheim"));
   EXPECT_TRUE(says(messageOf([] { connect("mysql://host/db"); }), "neither a file nor"));
   EXPECT_THROW(connect(""), UsageError);
-  EXPECT_TRUE(says(messageOf([] { connect("/no/such/folder/records.sqlite"); }), "folder exists"));
+  EXPECT_TRUE(says(messageOf([] { connect("/no/such/folder/records.sqlite"); }),
+                   "its folder does not exist"));
 }
 
 TEST(DamagedFile, IsNamedAndLeftAlone) {
