@@ -27,6 +27,13 @@ struct DeviceReading {
 };
 static_assert(std::is_trivially_copyable_v<DeviceReading>);
 
+/// What takes the force away by itself when no command comes any more: the program is dead, or
+/// stopped.
+enum class Watchdog : std::uint8_t {
+  unknown,  ///< nothing that anybody vouches for: the last force may stay
+  own       ///< the device's
+};
+
 /// What a device can do; the coupling and the safety limits are sized from it. SI units.
 struct DeviceCapabilities {
   std::string name;
@@ -42,6 +49,7 @@ struct DeviceCapabilities {
   Packed3 workspace_centre{0, 0, 0};     ///< in D, m
   Packed3 workspace_half_size{0, 0, 0};  ///< m; the box about the centre is reached; zero: unknown
   bool simulated = false;
+  Watchdog watchdog = Watchdog::unknown;
 };
 
 /// A force-feedback device: real driver, virtual twin or replay. `read` and `command` are called

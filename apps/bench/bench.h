@@ -70,6 +70,15 @@ struct RenderBenchOptions {
 /// surfaces beside depth peeling. One JSON object a line. Throws Error where nothing can be drawn.
 void benchRender(const RenderBenchOptions& options);
 
+struct StopBenchOptions {
+  int presses = 200;  ///< from each source, with each part hung
+};
+
+/// Milliseconds from a press of the emergency stop to the first command of zero force, in real
+/// time: 99 % quantile, median and largest, for every source of a stop and every part of a session
+/// that may hang meanwhile. One JSON object a line, "stop.<source>.<hung part>". Throws Error.
+void benchStop(const StopBenchOptions& options);
+
 struct TrackingBenchOptions {
   double distance = 0.5;   ///< m, from camera to board
   double speed = 0.2;      ///< m/s, the peak of a hand's motion there and back

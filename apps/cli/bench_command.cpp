@@ -86,6 +86,19 @@ void addRenderBench(CLI::App& bench) {
   render->callback([options] { bench::benchRender(*options); });
 }
 
+void addStop(CLI::App& bench) {
+  CLI::App* stop = bench.add_subcommand(
+      "stop",
+      "Milliseconds from the emergency stop to zero force, while a part of a session hangs");
+  stop->footer(
+      "Example:\n  palpa bench stop > stop.jsonl\n  palpa bench stop --presses 20\n      15 lines: "
+      "by key, signal and console; while scene, task, recorder, camera or nothing hangs");
+  const auto options = std::make_shared<bench::StopBenchOptions>();
+  stop->add_option("--presses", options->presses, "Presses for each line (default 200)")
+      ->check(inRange(1, 100'000));
+  stop->callback([options] { bench::benchStop(*options); });
+}
+
 void addTracking(CLI::App& bench) {
   CLI::App* tracking = bench.add_subcommand(
       "tracking", "How accurate, steady and fast the board's tracking is (simulated pictures)");
@@ -124,6 +137,7 @@ void addBench(CLI::App& program) {
   addLoop(*bench);
   addMaterial(*bench);
   addRenderBench(*bench);
+  addStop(*bench);
   addTracking(*bench);
 }
 

@@ -96,7 +96,9 @@ Findings table(const station::Station& station, const PictureFacts& pictures,
   Findings all = judgePictures(pictures, station.camera_rate_Hz, station.camera);
   all.push_back(judgePrint(station, o.bar_mm));
   all.push_back(askDevice(station.device));
-  if (falcon) append(all, {askFirmware(station.device), askUdevRule(udevFolders())});
+  if (falcon)
+    append(all, {askFirmware(station.device), askUdevRule(udevFolders()),
+                 sayWatchdog(station.device.capabilities)});
   all.push_back(askSensor(station));
   if (station.tracker) all.push_back(askTracker(*station.tracker));
   append(all, judgeCalibrations(station, runtime::utcNow()));

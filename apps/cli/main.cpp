@@ -8,6 +8,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/usage_words.h"
 #include "apps/os/signals.h"
+#include "apps/session/force_guard.h"
 
 namespace {
 
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
     palpa::os::letLargeFilesFail();
     cv::setNumThreads(1);  // results must not depend on the number of cores
     if (!verbose) quietLibraries();
+    if (palpa::session::isGuard(words)) return palpa::session::standGuard(words);
     return palpa::cli::runCommand(std::move(words));
   } catch (...) {
     return tellFailure();

@@ -109,6 +109,15 @@ Finding askDevice(const station::DeviceSetup& setup) {
           "Give a station with a haptic device, where touch matters"};
 }
 
+Finding sayWatchdog(const haptics::DeviceCapabilities& device) {
+  constexpr const char* kWatchdog = "force guard";
+  if (device.watchdog == haptics::Watchdog::own)
+    return {kWatchdog, State::well, "the device lets go by itself when the program dies"};
+  return {kWatchdog, State::well,
+          "the device may keep its last force when the program dies or is stopped: a guard process "
+          "takes it away then. Keep its power switch within reach"};
+}
+
 Finding judgeSensor(const SensorFacts& facts) {
   if (!facts.trouble.empty()) return troubled(kSensor, State::ill, facts.trouble);
   const auto count = [](std::uint64_t n) { return std::to_string(n); };

@@ -23,6 +23,9 @@ const std::vector<std::filesystem::path>& udevFolders();
 /// The rule that lets whoever sits at the station open a Falcon.
 Finding askUdevRule(const std::vector<std::filesystem::path>& folders);
 
+/// What becomes of the device's force when the program dies.
+Finding sayWatchdog(const haptics::DeviceCapabilities& device);
+
 /// The station's haptic device, tried for a second or two; nothing is moved by it, no force is
 /// rendered.
 Finding askDevice(const station::DeviceSetup& setup);

@@ -4,9 +4,11 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstring>
 #include <sstream>
 
@@ -19,19 +21,27 @@ namespace {
 
 constexpr int kNice = 10, kFirstOfOurs = 3;
 
-/// 0: there is no such process, or it has ended and waits to be put away.
-std::uint64_t beganAt(int pid) {
+struct ProcessState {
+  char letter = 'X';
+  std::uint64_t began = 0;
+};
+ProcessState stateOf(int pid) {
   const std::string text = readWhole("/proc/" + std::to_string(pid) + "/stat").value_or("");
   const std::size_t name_end = text.rfind(')');
-  if (name_end == std::string::npos) return 0;
+  if (name_end == std::string::npos) return {};
   std::istringstream fields(text.substr(name_end + 1));
-  std::string state, skipped;
-  fields >> state;
-  if (state == "Z" || state == "X") return 0;
+  ProcessState state;
+  std::string skipped;
+  fields >> state.letter;
   for (int field = 4; field < 22; ++field) fields >> skipped;
-  std::uint64_t began = 0;
-  fields >> began;
-  return began;
+  fields >> state.began;
+  return state;
+}
+
+/// 0: there is no such process, or it has ended and waits to be put away.
+std::uint64_t beganAt(int pid) {
+  const ProcessState state = stateOf(pid);
+  return state.letter == 'Z' || state.letter == 'X' ? 0 : state.began;
 }
 
 struct Spawning {
@@ -55,12 +65,9 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return all;
 }
 
-}  // namespace
-
-ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log,
-                bool gives_way) {
-  Spawning how;
-  posix_spawn_file_actions_addopen(&how.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+/// Its descriptor 0 is in `how`; the others go to `log`.
+ProcessId spawn(Spawning& how, const std::vector<std::string>& arguments,
+                const std::filesystem::path& log) {
   posix_spawn_file_actions_addopen(&how.files, STDOUT_FILENO, log.c_str(),
                                    O_WRONLY | O_CREAT | O_APPEND, 0600);
   posix_spawn_file_actions_adddup2(&how.files, STDOUT_FILENO, STDERR_FILENO);
@@ -75,8 +82,44 @@ ProcessId start(const std::vector<std::string>& arguments, const std::filesystem
   if (const int error = posix_spawn(&pid, "/proc/self/exe", &how.files, &how.attributes,
                                     pointersTo(words).data(), environ))
     failFile("cannot be started", "palpa " + arguments.front(), error);
-  if (gives_way) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), kNice);
   return {pid, beganAt(pid)};
+}
+
+}  // namespace
+
+ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                bool gives_way) {
+  Spawning how;
+  posix_spawn_file_actions_addopen(&how.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  const ProcessId process = spawn(how, arguments, log);
+  if (gives_way) ::setpriority(PRIO_PROCESS, static_cast<id_t>(process.pid), kNice);
+  return process;
+}
+
+Companion startWithLine(const std::vector<std::string>& arguments) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends) != 0)
+    failFile("cannot be started", "palpa " + arguments.front(), errno);
+  Spawning how;
+  posix_spawn_file_actions_adddup2(&how.files, ends[1], STDIN_FILENO);
+  try {
+    const ProcessId process = spawn(how, arguments, "/dev/null");
+    ::close(ends[1]);
+    return {process, ends[0]};
+  } catch (...) {
+    ::close(ends[0]);
+    ::close(ends[1]);
+    throw;
+  }
+}
+
+bool isStopped(const ProcessId& process) {
+  const ProcessState state = stateOf(process.pid);
+  return state.letter == 'T' && state.began == process.began;
+}
+
+void endAtOnce(const ProcessId& process) {
+  if (runs(process)) ::kill(process.pid, SIGKILL);
 }
 
 bool runs(const ProcessId& process) {
@@ -105,5 +148,12 @@ bool startProgram(const std::string& name, const std::vector<std::string>& argum
 }
 
 int processNumber() { return ::getpid(); }
+
+ProcessId thisProcess() { return {::getpid(), beganAt(::getpid())}; }
+
+std::string programName() {
+  std::error_code none;
+  return std::filesystem::read_symlink("/proc/self/exe", none).filename().string();
+}
 
 }  // namespace palpa::os

@@ -20,10 +20,21 @@ struct ProcessId {
 /// started it; output goes to `log`; nothing of ours stays open in it. Throws Error.
 ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log,
                 bool gives_way);
+/// As `start`, silent, and with a line to it: what is sent there (see socket.h) it receives at its
+/// descriptor 0, and that line ends however this process does. Throws Error.
+struct Companion {
+  ProcessId process;
+  int line = -1;  ///< whoever has it closes it
+};
+Companion startWithLine(const std::vector<std::string>& arguments);
 /// It runs. A child of ours that ended is put away.
 bool runs(const ProcessId& process);
 /// Asks it to end, as Ctrl-C does.
 void askToEnd(const ProcessId& process);
+/// It is stopped, as by Ctrl-Z; not by a debugger.
+bool isStopped(const ProcessId& process);
+/// Ends it, whatever it does.
+void endAtOnce(const ProcessId& process);
 
 /// This process becomes the program anew, with `arguments`: its number stays, and whatever hangs in
 /// it is gone. Comes back only where that cannot be.
@@ -35,5 +46,8 @@ bool startProgram(const std::string& name, const std::vector<std::string>& argum
 
 /// Of this process; no other running one has it.
 int processNumber();
+ProcessId thisProcess();
+/// The name of its file: "palpa", and in a test the test's.
+std::string programName();
 
 }  // namespace palpa::os

@@ -1,5 +1,7 @@
 #include "apps/os/signals.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 #include <iterator>
@@ -40,6 +42,8 @@ void letLargeFilesFail() {
   action.sa_flags = SA_RESTART;
   sigaction(SIGXFSZ, &action, nullptr);
 }
+
+void signalThisProcess() { ::kill(::getpid(), SIGUSR1); }
 
 InterruptNote::InterruptNote(Again again) {
   if (notes++ > 0) return;

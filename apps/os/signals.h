@@ -6,6 +6,9 @@ namespace palpa::os {
 /// of ending the program.
 void letLargeFilesFail();
 
+/// Sends this process what another one may send it to end it (SIGUSR1). To be noted: see below.
+void signalThisProcess();
+
 /// While it lives, Ctrl-C and what else asks a program to end (SIGTERM, SIGQUIT, SIGUSR1, SIGUSR2,
 /// SIGHUP: its terminal is gone) is noted instead of ending it, and a reader of its output who has
 /// gone away (SIGPIPE) does not end it either: writing there fails, and nothing more. Of SIGHUP,

@@ -82,6 +82,12 @@ class EventQueue {
   }
 
   std::uint64_t overflows() const { return overflows_.load(std::memory_order_relaxed); }
+  /// How many are not taken yet, at most; any thread.
+  std::size_t waiting() const {
+    const std::size_t tail = tail_.load(std::memory_order_acquire),
+                      head = head_.load(std::memory_order_acquire);
+    return head >= tail ? head - tail : head + slots_.size() - tail;
+  }
 
  private:
   std::vector<T> slots_;

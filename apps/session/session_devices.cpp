@@ -93,6 +93,8 @@ void SessionDevices::openDevice(const std::optional<MouseHandSetup>& mouse, runt
                                : haptics::readFalconFirmware(setup.firmware));
     falcon_activity_ = std::make_unique<runtime::FalconActivity>(*falcon_, bus.device_to_task);
     device = falcon_.get();
+    if (device->capabilities().watchdog == haptics::Watchdog::unknown)
+      guard_ = std::make_unique<ForceGuard>();
   } else if (setup.driver == DeviceDriver::replay) {
     replay_ =
         std::make_unique<haptics::ReplayDevice>(setup.capabilities, readingsOf(setup.recording));
@@ -148,7 +150,14 @@ void SessionDevices::addTo(runtime::Executive& executive) {
                   {0, true, false});  // a device moves in time, whatever the computer does
   if (mouse_) executive.add(*mouse_, {0, false, false});
   if (falcon_activity_) executive.add(*falcon_activity_, {0, true, false});
+  if (guard_) executive.add(*guard_, {0, false, false});
   if (net_ft_activity_) executive.add(*net_ft_activity_, {0, false, false});
+}
+
+std::string SessionDevices::warning() const {
+  if (!guard_ || guard_->stands()) return "";
+  return "This device may keep its last force when the program dies: keep a hand on its power "
+         "switch";
 }
 
 std::vector<report::Fact> SessionDevices::facts() const {

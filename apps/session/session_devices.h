@@ -9,6 +9,7 @@
 #include "apps/runtime/device_adapters.h"
 #include "apps/runtime/executive.h"
 #include "apps/runtime/haptic_activity.h"
+#include "apps/session/force_guard.h"
 #include "apps/session/mouse_hands.h"
 #include "apps/session/session_options.h"
 #include "apps/twin/virtual_bench.h"
@@ -56,6 +57,8 @@ class SessionDevices {
   void addTo(runtime::Executive& executive);  ///< what has to run beside the loop
 
   std::vector<report::Fact> facts() const;  ///< what a driver has counted, for the report
+  /// What whoever holds the device has to know before the first trial; empty: nothing.
+  std::string warning() const;
 
  private:
   void makeBench(twin::VirtualBenchSetup setup, runtime::Bus& bus, trial::Channels& channels);
@@ -79,6 +82,7 @@ class SessionDevices {
   std::unique_ptr<MouseHand> mouse_;
   std::unique_ptr<haptics::FalconDriver> falcon_;
   std::unique_ptr<runtime::FalconActivity> falcon_activity_;
+  std::unique_ptr<ForceGuard> guard_;  ///< of a device without a watchdog; takes leave last
   std::unique_ptr<haptics::ReplayDevice> replay_;
   std::optional<runtime::CorrectedDevice> corrected_;  ///< where the workspace was calibrated
   std::optional<runtime::ButtonPlunger> plunger_;      // around whichever it is

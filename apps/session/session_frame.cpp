@@ -183,6 +183,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   std::optional<StopKeyWatch> stop_key;
   if (stop_key_) stop_key.emplace(*stop_key_, bus_.stop);
   devices_.addTo(*executive_);
+  if (const std::string warning = devices_.warning(); !warning.empty()) task.warn(warning);
   executive_->add(*haptic, {1, true, false, options_.cpu});
   if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});
   executive_->add(camera, {3, false, false});

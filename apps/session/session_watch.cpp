@@ -20,12 +20,19 @@ constexpr int kKeyWait_ms = 50;
 
 std::string partInWords(const std::string& activity) {
   static const std::map<std::string, std::string> kWords{
-      {"scene", "the picture"},      {"camera", "the camera"},
-      {"recorder", "the evidence"},  {"falcon", "the haptic device"},
-      {"haptic", "the haptic loop"}, {"igtl", "OpenIGTLink"},
-      {"tracker", "the tracker"},    {"task", "the task"},
-      {"geometry", "the geometry"},  {"stop key", "the space bar's thread"},
-      {"progress", "the terminal"},  {"force sensor", "the force sensor"}};
+      {"scene", "the picture"},
+      {"camera", "the camera"},
+      {"recorder", "the evidence"},
+      {"falcon", "the haptic device"},
+      {"haptic", "the haptic loop"},
+      {"igtl", "OpenIGTLink"},
+      {"tracker", "the tracker"},
+      {"task", "the task"},
+      {"geometry", "the geometry"},
+      {"stop key", "the space bar's thread"},
+      {"progress", "the terminal"},
+      {"force sensor", "the force sensor"},
+      {"force guard", "the line to the force guard"}};
   const auto found = kWords.find(activity);
   return found == kWords.end() ? activity : found->second;
 }

@@ -147,6 +147,7 @@ std::int64_t TrialScene::step(std::int64_t now_ns) {
   follow(now_ns);
   composeAll();
   informOperator(now_ns);
+  channels_.frames.fetch_add(1, std::memory_order_relaxed);
   if (worn) {
     stage_.head->show(state_);
     pulse(*stage_.head, tool_);

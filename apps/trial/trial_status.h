@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 
@@ -82,7 +83,8 @@ struct Channels {
       16};  ///< from the system: the session shall end, a part does not answer
   runtime::EventQueue<UserRequest> operator_to_task{8};  ///< from a simulated operator
   runtime::EventQueue<UserRequest> console_to_task{
-      64};  ///< from whoever looks on through the console
+      64};                               ///< from whoever looks on through the console
+  std::atomic<std::uint64_t> frames{0};  ///< of the scene so far, for the task
 };
 
 }  // namespace palpa::trial

@@ -88,28 +88,70 @@ void TrialTask::watchCamera(std::int64_t now_ns) {
   camera_ = trouble;
 }
 
+/// Why no trial can begin; empty: everything is there.
+std::string TrialTask::missing(std::int64_t now_ns) {
+  if (!last_.reading.homed)
+    return status_.device.empty() ? "the haptic device is not homed" : status_.device;
+  if (const std::string tool = notReady(last_); !tool.empty()) return tool;
+  return sightTrouble(bus_.camera_to_task.read(now_ns), now_ns);
+}
+
+/// Before the first trial the computer is tried as well, for the two seconds that it takes to see
+/// whether it keeps up.
 void TrialTask::checkReady(std::int64_t now_ns) {
   if (status_.emergency_stop) return;
-  const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
-  std::string missing;
-  if (!last_.reading.homed)
-    missing = status_.device.empty() ? "the haptic device is not homed" : status_.device;
-  else if (const std::string tool = notReady(last_); !tool.empty())
-    missing = tool;
-  else if (const std::string trouble = sightTrouble(view, now_ns); !trouble.empty())
-    missing = trouble;
-  status_.notice = missing.empty() ? "" : "Not ready: " + missing;
-  if (missing.empty()) {
-    report(now_ns, EventKind::ready,
-           lead_.calibration_problem.empty()
-               ? "Ready: device homed, board seen, calibration valid"
-               : "Ready, but not scored: " + lead_.calibration_problem);
-    status_.state = TrialState::waiting;
-    since_ns_ = now_ns;
-    if (!lead_.automatic) status_.notice = "Press Enter to start";
-  } else if (lead_.automatic && now_ns - since_ns_ > kReadyPatience) {
-    throw Error(missing, "ready check", "Look at the station: device, camera, board");
+  const std::string words = missing(now_ns);
+  status_.notice = words.empty() ? "" : "Not ready: " + words;
+  if (!words.empty() && lead_.automatic && now_ns - since_ns_ > kReadyPatience)
+    throw Error(words, "ready check", "Look at the station: device, camera, board");
+  if (!words.empty()) return;
+  if (realTime() && status_.trial == 0 && !load_.rehearsed())
+    status_.notice = "Wait: this computer is checked for 2 s";
+  else
+    becomeReady(now_ns);
+}
+
+void TrialTask::becomeReady(std::int64_t now_ns) {
+  report(now_ns, EventKind::ready,
+         lead_.calibration_problem.empty() ? "Ready: device homed, board seen, calibration valid"
+                                           : "Ready, but not scored: " + lead_.calibration_problem);
+  const std::string warning = status_.trial == 0 ? sayWarnings(now_ns) : "";
+  status_.state = TrialState::waiting;
+  since_ns_ = now_ns;
+  if (!lead_.automatic)
+    status_.notice = warning.empty() ? "Press Enter to start" : warning + ". Enter starts";
+}
+
+/// All for the evidence, the first for the notice; none forbids a trial.
+std::string TrialTask::sayWarnings(std::int64_t now_ns) {
+  std::string first;
+  const auto say = [&](const std::string& words) {
+    if (first.empty()) first = words;
+  };
+  for (const std::string& words : warnings_) {
+    report(now_ns, EventKind::device, words);
+    say(words);
   }
+  if (!realTime()) return first;
+  for (const LoadWatch::Verdict& verdict : load_.verdicts()) {
+    const std::string words = verdict.what + ": " + verdict.remedy;
+    report(now_ns, EventKind::computer, words + "; palpa doctor tells more", 1);
+    say(words);
+  }
+  return first;
+}
+
+/// What a trial suffered from the computer, how often as the events' values. In virtual time
+/// nothing is late.
+void TrialTask::reportLoad(std::int64_t now_ns) {
+  if (!realTime()) return;
+  load_.look(LoadWatch::seenOn(bus_, channels_.frames.load(std::memory_order_relaxed)));
+  if (const auto missed = static_cast<double>(load_.missed()); missed > 0)
+    report(now_ns, EventKind::computer, "The computer missed ticks of the haptic loop in a trial",
+           missed);
+  if (const auto lost = static_cast<double>(load_.lost()); lost > 0)
+    report(now_ns, EventKind::computer,
+           "The computer lost records of a trial: its replay is not exact", lost);
 }
 
 void TrialTask::startTrial(std::int64_t now_ns) {
@@ -118,6 +160,7 @@ void TrialTask::startTrial(std::int64_t now_ns) {
   status_.elapsed_s = 0;
   status_.notice.clear();
   since_ns_ = now_ns;
+  load_.beginTrial();
   const runtime::TrialHeader header = begin(now_ns);
   start_ns_ = header.t_ns;
   status_.role = training::roleNamed(header.role);
@@ -128,6 +171,7 @@ void TrialTask::startTrial(std::int64_t now_ns) {
 
 /// It ends with the last tick that was judged; one that was ended before its first, as it began.
 void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_t now_ns) {
+  reportLoad(now_ns);
   const Conclusion end = conclude(outcome, reason);
   const std::string& name = training::nameOf(outcome);
   note({now_ns, status_.trial, name, reason.empty() ? end.sentence : reason, 0});
@@ -153,9 +197,12 @@ void TrialTask::listen(std::int64_t now_ns) {
   while (bus_.haptic_to_task.pop(&record)) {
     watchSafety(record);
     last_ = record;
+    if (realTime()) load_.tick(record);
     watch(record);
     if (status_.active()) judge(record, now_ns);
   }
+  if (realTime())
+    load_.look(LoadWatch::seenOn(bus_, channels_.frames.load(std::memory_order_relaxed)));
 }
 
 /// Trips and what limits the force become events, and stay on the screen long enough to be read. A
@@ -290,7 +337,7 @@ void TrialTask::report(std::int64_t now_ns, EventKind kind, const std::string& t
 
 bool isForTheReport(const runtime::Event& event) {
   return event.is(EventKind::safety) || event.is(EventKind::device) ||
-         (event.is(EventKind::camera) && event.value > 0);
+         (event.value > 0 && (event.is(EventKind::camera) || event.is(EventKind::computer)));
 }
 
 void TrialTask::note(const runtime::Event& event) {

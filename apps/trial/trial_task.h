@@ -8,6 +8,7 @@
 #include "apps/runtime/camera_trouble.h"
 #include "apps/runtime/executive.h"
 #include "apps/training/trial_words.h"
+#include "apps/trial/load_watch.h"
 #include "apps/trial/trial_status.h"
 
 namespace palpa::trial {
@@ -25,6 +26,10 @@ class TrialTask : public runtime::Activity {
     std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
   };
   TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels, runtime::Executive& executive);
+
+  /// Said with the first ready check, in the notice and in the evidence: of the device, what
+  /// whoever holds it has to know. Before the first step.
+  void warn(const std::string& of_device) { warnings_.push_back(of_device); }
 
   const char* name() const override { return "task"; }
   std::int64_t step(std::int64_t now_ns) override;
@@ -80,7 +85,12 @@ class TrialTask : public runtime::Activity {
   void watchCamera(std::int64_t now_ns);
   std::string sightTrouble(const runtime::CameraView* view, std::int64_t now_ns);
   void watchSafety(const haptics::FlightRecord& record);
+  std::string missing(std::int64_t now_ns);
   void checkReady(std::int64_t now_ns);
+  void becomeReady(std::int64_t now_ns);
+  std::string sayWarnings(std::int64_t now_ns);
+  bool realTime() const { return executive_.mode() == runtime::TimeMode::real; }
+  void reportLoad(std::int64_t now_ns);
   void startTrial(std::int64_t now_ns);
   void publish(std::int64_t now_ns);
 
@@ -90,6 +100,8 @@ class TrialTask : public runtime::Activity {
   runtime::Executive& executive_;
   TrialStatus status_;
   std::vector<runtime::Event> safety_events_;
+  std::vector<std::string> warnings_;
+  LoadWatch load_;
   haptics::FlightRecord last_;                               ///< newest tick seen
   std::string camera_ = runtime::cameraTrouble(nullptr, 0);  ///< what was last said of it
   std::optional<runtime::Displaced> displaced_;              ///< as it was last said
@@ -103,7 +115,8 @@ class TrialTask : public runtime::Activity {
   bool quit_ = false;
 };
 
-/// "safety", "device", a loss of the camera: a report's notes tell of it.
+/// "safety", "device", a loss of the camera, a computer that did not keep up: a report's notes tell
+/// of it.
 bool isForTheReport(const runtime::Event& event);
 
 }  // namespace palpa::trial

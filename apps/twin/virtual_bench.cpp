@@ -12,6 +12,11 @@
 #include "apps/twin/bench_truth.h"
 
 namespace palpa::twin {
+namespace {
+
+constexpr std::int64_t kLongestHandStep_ns = 5'000'000;  // no movement is longer
+
+}  // namespace
 
 HeldTool::HeldTool(HeldToolSetup setup)
     : setup_(std::move(setup)),
@@ -20,16 +25,30 @@ HeldTool::HeldTool(HeldToolSetup setup)
   if (setup_.sensor) felt_.emplace(setup_.sensor_truth, setup_.seed);
 }
 
+/// What has passed while the hand waited, or while nothing on this computer moved, is no time for
+/// it: a movement goes on where it was.
+void HeldTool::passTime(bool waits, std::int64_t now_ns) {
+  const std::int64_t step_ns = last_ns_ < 0 ? 0 : now_ns - last_ns_;
+  last_ns_ = now_ns;
+  missed_ns_ += waits ? step_ns : std::max<std::int64_t>(step_ns - kLongestHandStep_ns, 0);
+}
+
 const Hand::Action& HeldTool::act(const runtime::Displayed* seen, std::int64_t now_ns, double dt) {
+  const bool waits = seen && now_ns - seen->t_ns > kOldPicture_ns;
+  passTime(waits, now_ns);
+  f_command_D_ = unpack(setup_.device->commanded(now_ns));
+  f_hand_D_ = f_device_D_ = Vec3::Zero();
+  if (waits) {
+    action_.says = {};
+    return action_;
+  }
   Hand::Senses senses;
-  senses.now_ns = now_ns;
+  senses.now_ns = now_ns - missed_ns_;
   senses.X_DE = mechanics_.truePose();
   senses.f_grip_D = mechanics_.gripForce();
   senses.f_fingers_D = mechanics_.fingerForce();
   senses.seen = seen;
   action_ = setup_.hand->act(senses, dt);
-  f_command_D_ = unpack(setup_.device->commanded(now_ns));
-  f_hand_D_ = f_device_D_ = Vec3::Zero();
   return action_;
 }
 
@@ -80,7 +99,8 @@ void HeldTool::publish(std::int64_t now_ns, double dt) {
 namespace {
 
 constexpr std::int64_t kBenchPeriod = runtime::kMillisecond;
-constexpr double kLongestBenchStep = 0.005;  // s, a late step is not integrated over more
+constexpr double kLongestBenchStep =
+    1e-9 * kLongestHandStep_ns;  // s, a late step is not integrated over more
 
 }  // namespace
 

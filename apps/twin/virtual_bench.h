@@ -37,9 +37,14 @@ struct RealTouch {
 };
 
 /// One simulated device on the bench with whoever holds it, its force sensor and two force cells at
-/// the tool. The rest of the program sees what is published: readings and samples.
+/// the tool. The rest of the program sees what is published: readings and samples. The hand waits
+/// for what it has not seen: while the newest picture is older than `kOldPicture_ns` (a computer
+/// that cannot keep up, a window that hangs) it holds still where it is, and its own time stands.
 class HeldTool {
  public:
+  /// In virtual time a picture is seen within 67 ms: 30 a second, shown 33 ms later.
+  static constexpr std::int64_t kOldPicture_ns = 300'000'000;
+
   explicit HeldTool(HeldToolSetup setup);
 
   /// What the person does now, by what is seen and felt.
@@ -53,6 +58,7 @@ class HeldTool {
 
  private:
   void measureForces(haptics::DeviceReading& reading);
+  void passTime(bool waits, std::int64_t now_ns);
 
   HeldToolSetup setup_;
   DeviceTwin mechanics_;
@@ -63,6 +69,7 @@ class HeldTool {
   Vec3 f_command_D_ = Vec3::Zero(), f_hand_D_ = Vec3::Zero(),
        f_device_D_ = Vec3::Zero();  // the last two: means over the step
   std::uint64_t sequence_ = 0;
+  std::int64_t last_ns_ = -1, missed_ns_ = 0;  ///< of the session, in which the hand's time stood
 };
 
 /// How far the estimates were from the simulated truth; for reports only.

@@ -33,6 +33,13 @@ TEST(DoctorsDevice, EveryProblemOfAFalconIsNamed) {
   }
 }
 
+TEST(DoctorsDevice, WhatBecomesOfTheForceOfADeadProgramIsSaid) {
+  haptics::DeviceCapabilities device;
+  expectSays(sayWatchdog(device), State::well, "Keep its power switch within reach");
+  device.watchdog = haptics::Watchdog::own;
+  expectSays(sayWatchdog(device), State::well, "lets go by itself");
+}
+
 TEST(DoctorsDevice, FirmwareThatIsNotThereOrNoneIsNamed) {
   const fs::path folder = test::freshFolder("doctor", "firmware");
   station::DeviceSetup setup;

@@ -10,6 +10,7 @@
 
 #include "apps/os/child_process.h"
 #include "apps/os/signals.h"
+#include "apps/os/socket.h"
 #include "apps/os/system_time.h"
 #include "apps/os/worker_processes.h"
 #include "tests/support/scratch_folder.h"
@@ -40,6 +41,57 @@ TEST(Workers, WriteIntoMemoryThatAllSee) {
 TEST(Workers, AKilledOneIsNotClean) {
   ASSERT_TRUE(forkWorker([] { ::raise(SIGKILL); }));
   EXPECT_FALSE(endedOne().clean);
+}
+
+/// A process that only waits, as a session that is stopped or killed is seen by others.
+ProcessId sleepingOne(const SharedMemory<std::atomic<bool>>& there,
+                      const SharedMemory<ProcessId>& who) {
+  *there = false;
+  EXPECT_TRUE(forkWorker([&] {
+    *who = thisProcess();
+    *there = true;
+    for (;;) ::pause();
+  }));
+  while (!*there) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+  return *who;
+}
+
+TEST(Processes, AStoppedOneIsSeenToBeAndIsEnded) {
+  const SharedMemory<std::atomic<bool>> there("");
+  const SharedMemory<ProcessId> who("");
+  const ProcessId process = sleepingOne(there, who);
+  EXPECT_TRUE(runs(process));
+  EXPECT_FALSE(isStopped(process));
+  ::kill(process.pid, SIGSTOP);
+  while (!isStopped(process)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+  EXPECT_FALSE(isStopped({process.pid, process.began + 1})) << "another one of that number";
+  endAtOnce({process.pid, process.began + 1});
+  EXPECT_TRUE(isStopped(process));
+  endAtOnce(process);
+  while (runs(process)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+  EXPECT_FALSE(isStopped(process));
+}
+
+TEST(Processes, TheLineToACompanionEndsWithIt) {
+  const Companion lister = startWithLine({"--gtest_list_tests"});  // of this test, to nowhere
+  ASSERT_GE(lister.line, 0);
+  char byte = 0;
+  while (receiveSome(lister.line, &byte, 1)) ready(lister.line, Wait::to_read, 100);
+  while (runs(lister.process)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+  closeSocket(lister.line);
+}
+
+TEST(Processes, KnowTheirProgram) {
+  EXPECT_EQ(thisProcess().pid, processNumber());
+  EXPECT_TRUE(runs(thisProcess()));
+  EXPECT_EQ(programName(), "test_os");
+}
+
+TEST(Interrupt, ASignalToThisProcessIsNoted) {
+  const InterruptNote note;
+  EXPECT_FALSE(note.noted());
+  signalThisProcess();
+  while (!note.noted()) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
 }
 
 TEST(Interrupt, IsNotedAndTheOldHandlerComesBack) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+#include <vector>
+
 namespace palpa::trial {
 namespace {
 
@@ -10,6 +14,8 @@ class PlainTask final : public TrialTask {
  public:
   using TrialTask::TrialTask;
   TrialState state() const { return status().state; }
+  const std::string& notice() const { return status().notice; }
+  void endNow(std::int64_t now_ns) { endTrial(training::Outcome::voided, "", now_ns); }
 
  protected:
   std::string notReady(const haptics::FlightRecord&) const override { return ""; }
@@ -51,6 +57,99 @@ TEST(TrialTask, ATrialThatIsBrokenOffBeforeItsFirstTickEndsAsItBegan) {
   }
   EXPECT_GE(start_ns, kNow);
   EXPECT_EQ(end_ns, start_ns) << "no trial lasts less than no time";
+}
+
+/// At a station in real time: a device that is homed, a board that is seen, ticks that are late.
+struct Rehearsing : testing::Test {
+  /// Ten milliseconds.
+  void step() {
+    for (int i = 0; i < 10; ++i, now += runtime::kMillisecond) {
+      haptics::FlightRecord tick{};
+      tick.t_ns = now + late;
+      tick.late_ns = late;
+      tick.reading.homed = 1;
+      bus.haptic_to_task.push(tick);
+    }
+    runtime::CameraView view;
+    view.t_exposure_ns = now;
+    view.tracking = ar::TrackState::tracked;
+    bus.camera_to_task.publish(view, now);
+    ++channels.frames;
+    task.step(now);
+    runtime::EvidenceMessage message;
+    while (bus.task_to_recorder.pop(&message))
+      if (const auto* event = std::get_if<runtime::Event>(&message)) events.push_back(*event);
+  }
+  void run(int steps) {
+    for (int i = 0; i < steps; ++i) step();
+  }
+  std::vector<std::string> of(runtime::EventKind kind) const {
+    std::vector<std::string> texts;
+    for (const runtime::Event& event : events)
+      if (event.is(kind)) texts.push_back(event.text);
+    return texts;
+  }
+
+  std::int64_t now = runtime::kMillisecond, late = 0;
+  runtime::Bus bus{runtime::TimeMode::real};
+  Channels channels;
+  std::unique_ptr<runtime::Executive> executive = runtime::makeRealExecutive();
+  PlainTask task{{2, false, "", {}}, bus, channels, *executive};
+  std::vector<runtime::Event> events;
+};
+
+TEST_F(Rehearsing, TakesTwoSecondsAndSaysNothingWhereTheComputerKeepsUp) {
+  run(150);
+  EXPECT_EQ(task.state(), TrialState::checking);
+  EXPECT_EQ(task.notice(), "Wait: this computer is checked for 2 s");
+  run(60);
+  EXPECT_EQ(task.state(), TrialState::waiting);
+  EXPECT_EQ(task.notice(), "Press Enter to start");
+  EXPECT_TRUE(of(runtime::EventKind::computer).empty());
+}
+
+TEST_F(Rehearsing, SaysWhatTheComputerCannotDoAndForbidsNothing) {
+  late = 2'400'000;
+  run(210);
+  ASSERT_EQ(task.state(), TrialState::waiting);
+  EXPECT_EQ(task.notice(),
+            "The haptic loop is late (99 % below 2.4 ms): close other programs. Enter starts");
+  EXPECT_EQ(of(runtime::EventKind::computer),
+            (std::vector<std::string>{"The haptic loop is late (99 % below 2.4 ms): close other "
+                                      "programs; palpa doctor tells more"}));
+  ASSERT_EQ(task.safetyEvents().size(), 1u) << "for the report";
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  EXPECT_EQ(task.state(), TrialState::running);
+}
+
+TEST_F(Rehearsing, ATrialIsMarkedByTheTicksThatItMissed) {
+  run(210);
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  ASSERT_EQ(task.state(), TrialState::running);
+  late = 3 * runtime::kMillisecond;
+  run(5);
+  late = 0;
+  task.endNow(now);
+  run(1);
+  ASSERT_EQ(of(runtime::EventKind::computer).size(), 1u);
+  const auto marked = std::find_if(events.begin(), events.end(), [](const runtime::Event& e) {
+    return e.is(runtime::EventKind::computer);
+  });
+  EXPECT_EQ(marked->value, 50);
+  EXPECT_EQ(marked->trial, 1);
+  ASSERT_EQ(task.safetyEvents().size(), 1u) << "for the report";
+  run(310);  // no second rehearsal
+  EXPECT_EQ(task.state(), TrialState::waiting);
+}
+
+TEST_F(Rehearsing, WhatWhoeverHoldsTheDeviceHasToKnowIsSaidToo) {
+  task.warn("This device keeps its last force");
+  run(210);
+  EXPECT_EQ(task.notice(), "This device keeps its last force. Enter starts");
+  EXPECT_EQ(of(runtime::EventKind::device),
+            (std::vector<std::string>{"This device keeps its last force"}));
 }
 
 }  // namespace

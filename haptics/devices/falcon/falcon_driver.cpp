@@ -14,6 +14,7 @@ DeviceCapabilities falconCapabilities() {
   falcon.has_orientation = false;
   falcon.workspace_centre = pack(kFalconCentre);
   falcon.workspace_half_size = {0.04, 0.04, 0.04};
+  falcon.watchdog = Watchdog::unknown;  // what its motors do without packets is not documented
   return falcon;
 }
 
