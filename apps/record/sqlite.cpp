@@ -10,29 +10,42 @@ namespace {
 /// How long a commit waits for another program that writes to the same file.
 constexpr int kBusy_ms = 500;
 
-std::string remedyFor(int code) {
+/// A primary result code: why, and what to do about it.
+struct Refusal {
+  const char *why, *remedy;
+};
+
+Refusal refusalOf(int code) {
   switch (code) {
     case SQLITE_FULL:
-      return "The disk is full: free some space; what was committed before is safe";
+      return {"the disk is full",
+              "The disk is full: free some space; what was committed before is safe"};
     case SQLITE_IOERR:
-      return "The disk refused to read or write: check free space, quota and the drive; what was "
-             "committed before is safe";
+      return {"the disk refuses",
+              "The disk refused to read or write: check free space, quota and the drive; what was "
+              "committed before is safe"};
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_AUTH:
-      return "Make the file and its folder writable, or choose another folder with --out";
+      return {"it may not be written",
+              "Make the file and its folder writable, or choose another folder with --out"};
     case SQLITE_CANTOPEN:
-      return "Check that the folder exists and may be read and written, or choose another with "
-             "--out";
+      return {"it is not there, or may not be opened",
+              "Check that the folder exists and may be read and written, or choose another with "
+              "--out"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return "Another program holds the file: close it and try again";
+      return {"it is in use", "Another program holds the file: close it and try again"};
+    case SQLITE_NOMEM:
+      return {"there is not enough memory", "Close other programs, then try again"};
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
-      return "The file is damaged or no session file: restore it from a backup, or save what is "
-             "left with `sqlite3 FILE .recover`";
+      return {"it is damaged, or something else",
+              "The file is damaged or no session file: restore it from a backup, or save what is "
+              "left with `sqlite3 FILE .recover`"};
     default:
-      return "Check the file and its folder, or choose another folder with --out";
+      return {"its content is not as it must be",
+              "Check the file and its folder, or choose another folder with --out"};
   }
 }
 
@@ -52,6 +65,8 @@ std::string uri(const std::filesystem::path& file, const std::string& options) {
 }
 
 }  // namespace
+
+const char* reasonOf(int code) { return refusalOf(code).why; }
 
 void Database::Close::operator()(sqlite3* handle) const noexcept { sqlite3_close_v2(handle); }
 
@@ -75,10 +90,9 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
 }
 
 void Database::fail(const std::string& doing) const {
-  const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
-  const std::string reason = handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory";
-  throw DatabaseError(code & 0xff, doing + " (" + reason + ")", file_.string(),
-                      remedyFor(code & 0xff));
+  const int code = (handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM) & 0xff;
+  const Refusal refusal = refusalOf(code);
+  throw DatabaseError(code, doing + " (" + refusal.why + ")", file_.string(), refusal.remedy);
 }
 
 void Database::exec(const std::string& sql) {
