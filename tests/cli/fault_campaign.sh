@@ -10,13 +10,13 @@ set -uo pipefail
 palpa=$1 faults=$2
 count=${3:-50}
 [ $# -lt 3 ] && [ "${PALPA_FULL:-}" = 1 ] && count=1000
-library_words=$(cd "$(dirname "$0")/../support" && pwd)/library_words.txt
+top=$(cd "$(dirname "$0")/../.." && pwd)
+library_words=$top/tests/support/library_words.txt
 kinds=(
   'disk full' 'drive broken' 'memory' 'descriptors' 'size of files' 'killed' 'stopped' 'asked to end'
   'clock jumps' 'records lost'
 )
-session=(squeeze --operator expert --fast --no-views --quiet --trials 2)
-longest_s=120  # of a session of 2 s, on a loaded computer
+longest_s=120  # of a session of a second, on a loaded computer
 nothing_yet=40000  # bytes of evidence that says not yet what it is
 
 work=$(mktemp -d)
@@ -28,6 +28,12 @@ clean() {
 trap clean EXIT
 trap 'exit 130' INT TERM
 unset DISPLAY PALPA_RECORDS
+
+# With one picture a second, which are most of a session's computing.
+sed 's/"rate_Hz": [0-9]*/"rate_Hz": 1/' "$top/assets/stations/palpation_bench.json" \
+  >"$work/station.json"
+session=(squeeze --station "$work/station.json" --operator expert --fast --no-views --quiet
+  --trials 2)
 
 mkdir -p "$work/probe/disk"
 if mount -t tmpfs -o size=64k tmpfs "$work/probe/disk" 2>/dev/null; then
@@ -41,6 +47,17 @@ echo "disk full: $full_disk; drive broken, clock jumps: a library loaded before 
 for little in $(seq 100 50 3000); do  # MB with which the program starts at all
   (ulimit -v $((1024 * little)) && "$palpa" --version) >/dev/null 2>&1 && break
 done
+
+# One trainee's records, and a session without a fault.
+export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data
+"$palpa" records trainee add --id T001 --consent --records "$work/records.sqlite" >/dev/null &&
+  "$palpa" "${session[@]}" --out "$work/undisturbed" --records "$work/records.sqlite" \
+    --trainee T001 >"$work/said" 2>&1
+if [ $? != 0 ]; then
+  echo "FAIL  without a fault a session does not end in order"
+  cat "$work/said"
+  exit 1
+fi
 
 # between LOW HIGH: a number that follows from the fault's own
 between() { drawn=$(($1 + (RANDOM * 32768 + RANDOM) % ($2 - $1 + 1))); }
@@ -69,7 +86,7 @@ loaded() {   # FAULT AFTER COMMAND...
 }
 
 after_a_while() {   # somewhere in the session, its start and its end included
-  between 0 220
+  between 0 110
   sleep $((drawn / 100)).$(printf %02d $((drawn % 100)))
 }
 
@@ -98,8 +115,8 @@ strike() {
       fi
       ;;
     'drive broken') between 0 1600; begin loaded 'broken drive' $drawn ;;
-    'memory') between $((1024 * little)) $((1024 * (little + 500))); begin limited -v $drawn ;;
-    'descriptors') between 4 24; begin limited -n $drawn ;;
+    'memory') between $((1024 * little)) $((1024 * (little + 250))); begin limited -v $drawn ;;
+    'descriptors') between 4 14; begin limited -n $drawn ;;
     'size of files') between 8 5000; begin limited -f $drawn ;;
     'clock jumps') begin loaded 'date jumps' 0 ;;
     *) begin; after_a_while ;;
@@ -183,8 +200,9 @@ nothing_beside() {
 one_fault() {   # NUMBER
   number=$1 kind=${kinds[$1 % ${#kinds[@]}]} here=$work/$1 outcome=
   out=$here/session RANDOM=$number
-  mkdir -p "$here/home"
-  export HOME=$here/home XDG_STATE_HOME=$here/state XDG_DATA_HOME=$here/data
+  mkdir -p "$here"
+  export HOME=$here XDG_STATE_HOME=$here/state XDG_DATA_HOME=$here/data
+  cp "$work/records.sqlite" "$here/records.sqlite"
   strike
   await_end
   outcome_has_words
@@ -212,6 +230,9 @@ wait
 
 sort "$work/outcomes" | uniq -c
 struck=$(wc -l <"$work/outcomes")
+recorded=$(grep -vc 'before anything' "$work/outcomes")
+[ $((2 * recorded)) -ge "$count" ] ||
+  echo "only $recorded of $count sessions recorded anything" >>"$work/all_complaints"
 if [ "$struck" != "$count" ] || [ -s "$work/all_complaints" ]; then
   echo "FAIL  $struck of $count faults judged"
   cat "$work/all_complaints" 2>/dev/null
