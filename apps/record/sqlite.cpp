@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <limits>
 
 namespace palpa::record {
@@ -49,6 +50,15 @@ Refusal refusalOf(int code) {
   }
 }
 
+Refusal refusalOf(sqlite3* handle) {
+  const int code = sqlite3_errcode(handle) & 0xff;  // of none at all: no memory
+  const int system = handle ? sqlite3_system_errno(handle) : 0;
+  if (code == SQLITE_CANTOPEN && (system == EMFILE || system == ENFILE))
+    return {"too many files are open",
+            "Close other programs, or allow more open files (ulimit -n), then try again"};
+  return refusalOf(code);
+}
+
 /// A path as SQLite's URI, so that options can be appended.
 std::string uri(const std::filesystem::path& file, const std::string& options) {
   static constexpr char kHex[] = "0123456789ABCDEF";
@@ -90,9 +100,8 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
 }
 
 void Database::fail(const std::string& doing) const {
-  const int code = (handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM) & 0xff;
-  const Refusal refusal = refusalOf(code);
-  throw DatabaseError(code, doing + " (" + refusal.why + ")", file_.string(), refusal.remedy);
+  const Refusal refusal = refusalOf(handle_.get());
+  throw DatabaseError(sqlite3_errcode(handle_.get()) & 0xff, doing + " (" + refusal.why + ")", file_.string(), refusal.remedy);
 }
 
 void Database::exec(const std::string& sql) {
