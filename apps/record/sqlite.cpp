@@ -101,7 +101,8 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
 
 void Database::fail(const std::string& doing) const {
   const Refusal refusal = refusalOf(handle_.get());
-  throw DatabaseError(sqlite3_errcode(handle_.get()) & 0xff, doing + " (" + refusal.why + ")", file_.string(), refusal.remedy);
+  throw DatabaseError(sqlite3_errcode(handle_.get()) & 0xff, doing + " (" + refusal.why + ")",
+                      file_.string(), refusal.remedy);
 }
 
 void Database::exec(const std::string& sql) {

@@ -28,9 +28,9 @@ Function* original(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-constexpr time_t kLongAgo = 100'000'000;        // 1973
-constexpr time_t kFarAhead = 7'258'118'400;     // 2200
-std::atomic<long> writes{0};                    // to files that are no streams of the program
+constexpr time_t kLongAgo = 100'000'000;     // 1973
+constexpr time_t kFarAhead = 7'258'118'400;  // 2200
+std::atomic<long> writes{0};                 // to files that are no streams of the program
 
 /// Whether the drive has refused: from the PALPA_FAULT_AFTER-th write on, and for ever.
 bool driveHasFailed() {

@@ -14,7 +14,8 @@ namespace palpa::test {
 /// cannot be given up otherwise.
 class HangWatch {
  public:
-  explicit HangWatch(std::chrono::seconds longest) : longest_(longest), thread_([this] { watch(); }) {}
+  explicit HangWatch(std::chrono::seconds longest)
+      : longest_(longest), thread_([this] { watch(); }) {}
   ~HangWatch() {
     {
       const std::lock_guard lock(mutex_);
