@@ -34,10 +34,12 @@ std::string sealed(const Kind& kind, const std::string& bytes) {
 }
 
 FileKind withSchema(const Kind& kind) {
-  FileKind file{.name = kind.name, .samples = {}, .read = kind.read};
-  for (const Sample& sample : kind.samples)
-    file.samples.push_back({sample.asset, documentOf(sample)});
+  FileKind file{.name = kind.name, .samples = {}, .read = kind.read, .has_places = true};
   if (kind.seal) file.seal = [kind](const std::string& bytes) { return sealed(kind, bytes); };
+  for (const Sample& sample : kind.samples) {
+    const std::string bytes = documentOf(sample);
+    file.samples.push_back({sample.asset, file.seal ? file.seal(bytes) : bytes});
+  }
   return file;
 }
 
@@ -79,17 +81,15 @@ std::vector<FileKind> volumeKinds() {
            {{"own/plain.nii", nifti}, {"own/packed.nii.gz", anatomy::test::deflated(nifti, true)}},
            read},
           {.name = "dicom",
-           .samples = {{"own/series/0.dcm", dicomSlice(0)},
-                       {"own/series/1.dcm", dicomSlice(1)},
-                       {"own/series/2.dcm", dicomSlice(2)}},
+           .samples = {{"own/series/0.dcm", dicomSlice(0)}, {"own/series/1.dcm", dicomSlice(1)}},
            .read = [](const fs::path& file) { anatomy::readVolume(file.parent_path()); },
            .is_folder = true}};
 }
 
 std::vector<FileKind> cameraKinds() {
   const auto read = [](const fs::path& file) { calibration::readCameraModel(file); };
-  return {{"camera_yaml", {{"own/camera.yaml", openCvYaml()}}, read},
-          {"camera_xml", {{"own/camera.xml", openCvXml()}}, read}};
+  return {{.name = "camera_yaml", .samples = {{"own/camera.yaml", openCvYaml()}}, .read = read},
+          {.name = "camera_xml", .samples = {{"own/camera.xml", openCvXml()}}, .read = read}};
 }
 
 /// `header`, and twelve times this line of numbers.
@@ -121,7 +121,9 @@ std::vector<FileKind> tableKinds() {
 }
 
 std::vector<FileKind> evidenceKinds() {
-  return {{"session", {{"own/session.palpa", sessionFile()}}, [](const fs::path& file) {
+  return {{.name = "session",
+           .samples = {{"own/session.palpa", sessionFile()}},
+           .read = [](const fs::path& file) {
              const record::SessionReader reader(file);
              record::test::everything(reader);
            }}};
@@ -132,8 +134,12 @@ std::vector<FileKind> evidenceKinds() {
 std::vector<FileKind> everyFileKind() {
   std::vector<FileKind> all;
   for (const Kind& kind : everyKind()) all.push_back(withSchema(kind));
-  for (const std::vector<FileKind>& some :
-       {surfaceKinds(), volumeKinds(), cameraKinds(), tableKinds(), evidenceKinds()})
+  for (std::vector<FileKind> some : {cameraKinds(), tableKinds()})
+    for (FileKind& kind : some) {
+      kind.has_places = true;
+      all.push_back(std::move(kind));
+    }
+  for (const std::vector<FileKind>& some : {surfaceKinds(), volumeKinds(), evidenceKinds()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

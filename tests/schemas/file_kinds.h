@@ -21,8 +21,8 @@ struct FileKind {
   std::function<void(const std::filesystem::path&)> read;  ///< throws for what is refused
   /// Renews a checksum after damage; empty: there is none.
   std::function<std::string(const std::string& bytes)> seal = {};
-  /// The folder that is read, with files whose damage is not said of each; empty: the file.
-  bool is_folder = false;
+  bool is_folder = false;  ///< is read together with what lies beside it
+  bool has_places = true;  ///< what is wrong is said of a field, a line or a row
 };
 
 inline void PrintTo(const FileKind& kind, std::ostream* out) { *out << kind.name; }
