@@ -22,7 +22,7 @@ struct FileKind {
   /// Renews a checksum after damage; empty: there is none.
   std::function<std::string(const std::string& bytes)> seal = {};
   bool is_folder = false;  ///< is read together with what lies beside it
-  bool has_places = true;  ///< what is wrong is said of a field, a line or a row
+  bool has_places = false;  ///< what is wrong is said of a field, a line or a row
 };
 
 inline void PrintTo(const FileKind& kind, std::ostream* out) { *out << kind.name; }
