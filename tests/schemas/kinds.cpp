@@ -287,7 +287,8 @@ std::vector<Kind> patientKinds() {
 void readWholeProtocol(const fs::path& path) {
   study::readProtocol(path);
   const JsonFile file(path);
-  if (file.has("analysis")) study_analysis::studyKindNamed(file.text("analysis"), "analysis");
+  if (file.has("analysis"))
+    study_analysis::studyKindNamed(file.text("analysis"), path.string() + ", field \"analysis\"");
 }
 
 void readLearnersOf(const fs::path& file, const char* protocol) {

@@ -29,14 +29,9 @@ inline void replaceNumber(std::string* bytes, DamageDice& dice) {
 
 /// What stands between two quotation marks becomes too long, damaged, or something else.
 inline void replaceText(std::string* bytes, DamageDice& dice) {
-  static const std::string kTexts[] = {std::string(100'000, 'x'),
-                                       "\xC3\x28\xFF",
-                                       "",
-                                       "\\u0000\\n\\u001b[2J",
-                                       "../../../../../../nowhere",
-                                       "%s%n",
-                                       std::string(300, '/'),
-                                       "\xE2\x80\xAE"};
+  static const std::string kTexts[] = {std::string(100'000, 'x'), "\xC3\x28\xFF", "",
+                                       "\\u0000\\n\\u001b[2J",    "../nowhere",   "%s%n",
+                                       std::string(300, '.'),     "\xE2\x80\xAE"};
   const std::size_t open = bytes->find('"', placeIn(*bytes, dice));
   const std::size_t close = open == std::string::npos ? open : bytes->find('"', open + 1);
   if (close == std::string::npos) return;
