@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -99,7 +101,22 @@ void refuseFisheye(const cv::FileNode& root, const fs::path& file) {
     refuse(file, "the fisheye and other lens models are not supported, only k1 k2 p1 p2 k3");
 }
 
+/// OpenCV's reader goes as deep as a text is nested, even to the end of the stack.
+bool isNestedDeep(const std::string& text) {
+  constexpr int kDeepest = 32;
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size() && depth <= kDeepest; ++i) {
+    const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : ' ';
+    const bool opens_tag = c == '<' && std::isalpha(static_cast<unsigned char>(next));
+    const bool closes_tag = (c == '<' || c == '/') && next == (c == '<' ? '/' : '>');
+    if (c == '[' || c == '{' || opens_tag) ++depth;
+    if (c == ']' || c == '}' || closes_tag) depth = std::max(0, depth - 1);
+  }
+  return depth > kDeepest;
+}
+
 CameraModel fromOpenCv(const std::string& text, const fs::path& file) {
+  if (isNestedDeep(text)) refuse(file, "is nested too deep");
   const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
   if (!storage.isOpened()) refuse(file, "is neither YAML nor XML of OpenCV");
   const cv::FileNode root = storage.root();

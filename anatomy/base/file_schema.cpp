@@ -20,6 +20,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostNamesTold = 12;
+constexpr std::size_t kLongestName = 256;  // of a field; std::regex goes as deep as a text is long
 constexpr const char* kSchemaEnding = ".schema.json";
 
 /// A schema that is there, parsed once.
@@ -85,6 +86,7 @@ class KnownFields {
 
   bool knows(const std::string& field) const {
     if (std::find(names_.begin(), names_.end(), field) != names_.end()) return true;
+    if (field.size() > kLongestName) return false;
     return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
       const json patterns = part.schema->value("patternProperties", json::object());
       return std::any_of(

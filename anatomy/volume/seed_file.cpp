@@ -7,7 +7,6 @@
 #include "anatomy/base/bytes.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/file_schema.h"
-#include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 
 namespace palpa::anatomy {
@@ -17,6 +16,7 @@ constexpr const char* kKnown[] = {"vein_svc",      "vein_axilla", "clavicle_righ
                                   "clavicle_left", "midline",     "suprasternal_notch",
                                   "entry_point",   "vein_target"};
 constexpr double kFarthest_mm = 1e4;
+constexpr const char* kSeedRemedy = "Let a run write a new one: give another name to --seeds";
 
 bool known(const std::string& name) {
   return std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown);
@@ -31,14 +31,14 @@ std::string knownNames() {
 }  // namespace
 
 Seeds readSeeds(const std::filesystem::path& file) {
-  const nlohmann::json json = parsedOrDiscarded(readWhole(file).value_or(""));
-  const auto fail = [&](const std::string& what) {
-    throw Error(what, file.string(), "Let a run write a new one: give another name to --seeds");
-  };
+  const auto fail = [&](const std::string& what) { throw Error(what, file.string(), kSeedRemedy); };
+  const JsonFile whole =
+      JsonFile::ofText(readWhole(file).value_or("{}"), file.string(), kSeedRemedy);
+  const nlohmann::json& json = whole.json();
   if (!json.is_object() || json.value("format", nlohmann::json()) != "palpa-seeds" ||
       !json.contains("points") || !json["points"].is_object())
     fail("it is no file of seed points");
-  refuseUnknownFields(JsonFile(json, file.string()), "seeds");
+  refuseUnknownFields(whole, "seeds");
   if (json.value("unit", nlohmann::json()) != "mm") fail("its unit is not mm");
   Seeds seeds;
   for (const auto& [name, point] : json["points"].items()) {

@@ -53,9 +53,8 @@ void SessionReader::Impl::check(bool sound, const char* table, std::int64_t row)
 /// SQLite's own check of pages and order, once, before the first data are read.
 void SessionReader::Impl::checkPages() {
   if (pages_checked) return;
-  const std::string verdict = evidence.database().text("PRAGMA quick_check(1)");
-  if (verdict != "ok") {
-    throw Error("is damaged (" + verdict + ")", file.string(),
+  if (evidence.database().text("PRAGMA quick_check(1)") != "ok") {
+    throw Error("is damaged (its pages contradict each other)", file.string(),
                 "Restore it from a backup, or save what is left with `sqlite3 FILE .recover`");
   }
   pages_checked = true;

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <limits>
 
 namespace palpa::record {
@@ -10,30 +11,52 @@ namespace {
 /// How long a commit waits for another program that writes to the same file.
 constexpr int kBusy_ms = 500;
 
-std::string remedyFor(int code) {
+/// A primary result code: why, and what to do about it.
+struct Refusal {
+  const char *why, *remedy;
+};
+
+Refusal refusalOf(int code) {
   switch (code) {
     case SQLITE_FULL:
-      return "The disk is full: free some space; what was committed before is safe";
+      return {"the disk is full",
+              "The disk is full: free some space; what was committed before is safe"};
     case SQLITE_IOERR:
-      return "The disk refused to read or write: check free space, quota and the drive; what was "
-             "committed before is safe";
+      return {"the disk refuses",
+              "The disk refused to read or write: check free space, quota and the drive; what was "
+              "committed before is safe"};
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_AUTH:
-      return "Make the file and its folder writable, or choose another folder with --out";
+      return {"it may not be written",
+              "Make the file and its folder writable, or choose another folder with --out"};
     case SQLITE_CANTOPEN:
-      return "Check that the folder exists and may be read and written, or choose another with "
-             "--out";
+      return {"it is not there, or may not be opened",
+              "Check that the folder exists and may be read and written, or choose another with "
+              "--out"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return "Another program holds the file: close it and try again";
+      return {"it is in use", "Another program holds the file: close it and try again"};
+    case SQLITE_NOMEM:
+      return {"there is not enough memory", "Close other programs, then try again"};
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
-      return "The file is damaged or no session file: restore it from a backup, or save what is "
-             "left with `sqlite3 FILE .recover`";
+      return {"it is damaged, or something else",
+              "The file is damaged or no session file: restore it from a backup, or save what is "
+              "left with `sqlite3 FILE .recover`"};
     default:
-      return "Check the file and its folder, or choose another folder with --out";
+      return {"its content is not as it must be",
+              "Check the file and its folder, or choose another folder with --out"};
   }
+}
+
+Refusal refusalOf(sqlite3* handle) {
+  const int code = sqlite3_errcode(handle) & 0xff;  // of none at all: no memory
+  const int system = handle ? sqlite3_system_errno(handle) : 0;
+  if (code == SQLITE_CANTOPEN && (system == EMFILE || system == ENFILE))
+    return {"too many files are open",
+            "Close other programs, or allow more open files (ulimit -n), then try again"};
+  return refusalOf(code);
 }
 
 /// A path as SQLite's URI, so that options can be appended.
@@ -52,6 +75,8 @@ std::string uri(const std::filesystem::path& file, const std::string& options) {
 }
 
 }  // namespace
+
+const char* reasonOf(int code) { return refusalOf(code).why; }
 
 void Database::Close::operator()(sqlite3* handle) const noexcept { sqlite3_close_v2(handle); }
 
@@ -75,10 +100,9 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
 }
 
 void Database::fail(const std::string& doing) const {
-  const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
-  const std::string reason = handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory";
-  throw DatabaseError(code & 0xff, doing + " (" + reason + ")", file_.string(),
-                      remedyFor(code & 0xff));
+  const Refusal refusal = refusalOf(handle_.get());
+  throw DatabaseError(sqlite3_errcode(handle_.get()) & 0xff, doing + " (" + refusal.why + ")",
+                      file_.string(), refusal.remedy);
 }
 
 void Database::exec(const std::string& sql) {

@@ -24,6 +24,9 @@ class DatabaseError : public Error {
   const int code;
 };
 
+/// Why SQLite gave this primary result code, as a clause: "the disk is full".
+const char* reasonOf(int code);
+
 /// One connection. Not shared between threads.
 class Database {
  public:

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "sample_meshes.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
+#include "tests/support/little_memory.h"
 #include "tests/support/scratch_folder.h"
 
 /// Patient files and import maps that nobody vouches for: bits flipped, ends cut off, values of
@@ -26,28 +26,6 @@ using namespace palpa::test;
 using Json = nlohmann::json;
 
 constexpr rlim_t kMemory = 256u << 20;  // beyond what the process has already
-
-class LittleMemory {
- public:
-  LittleMemory() {
-    if (palpa::test::kSanitized) return;
-    getrlimit(RLIMIT_AS, &before_);
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    rlimit little = before_;
-    little.rlim_cur = pages * 4096 + kMemory;
-    limited_ = pages > 0 && setrlimit(RLIMIT_AS, &little) == 0;
-  }
-  ~LittleMemory() {
-    if (limited_) setrlimit(RLIMIT_AS, &before_);
-  }
-  LittleMemory(const LittleMemory&) = delete;
-  LittleMemory& operator=(const LittleMemory&) = delete;
-
- private:
-  rlimit before_{};
-  bool limited_ = false;
-};
 
 int cases() { return palpa::test::counted(250, 2500); }
 
@@ -150,7 +128,7 @@ template <class Read>
 bool readOrRefused(const std::string& where, Read read) {
   std::string words;
   {
-    const LittleMemory little;
+    const LittleMemory little(kMemory);
     try {
       read();
       return true;

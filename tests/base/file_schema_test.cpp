@@ -47,6 +47,11 @@ TEST(FileSchema, AnUnknownFieldIsNamedWithItsPlaceAndWhatWasMeant) {
       says(fieldRefused({{"safety", {{"xyzzy", 1}}}}, "station"), "is unknown; known here: "));
 }
 
+TEST(FileSchema, ALongNameIsUnknownAndEndsNothing) {
+  EXPECT_TRUE(says(fieldRefused({{"safety", {{std::string(100'000, 'x'), 1}}}}, "station"),
+                   "is unknown; known here: "));
+}
+
 TEST(FileSchema, FiguresHaveTheirFieldsThroughReferences) {
   const std::string said = fieldRefused(
       {{"end", {{"time_limit_s", {{"value", 60}, {"rangz", {1, 2}}}}}}}, "task_needle");

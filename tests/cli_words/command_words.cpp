@@ -7,6 +7,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/usage_words.h"
+#include "tests/support/library_words.h"
 
 namespace palpa::cli_words {
 namespace {
@@ -47,28 +48,12 @@ void Commands::each(const std::function<void(const Words&, const cli::CommandTex
 }
 
 std::string faultOf(const std::string& complaint) {
-  for (const char* foreign : {"std::",
-                              "not in range",
-                              "in range",
-                              "not expected",
-                              "1797693",
-                              "Error",
-                              "json.exception",
-                              "OpenCV",
-                              "Could not convert",
-                              "is required",
-                              "requires",
-                              "excludes",
-                              "subcommand",
-                              "ubcommand",
-                              "INT",
-                              "FLOAT",
-                              "{",
-                              "}",
-                              " OR ",
-                              "arguments to",
-                              "At Most",
-                              "At least"})
+  if (const std::string word = test::libraryWordsIn(complaint); !word.empty())
+    return "a library's words: " + word;
+  // The command line's library has more, which may stand in other messages of ours.
+  for (const char* foreign :
+       {"in range", "Error", "OpenCV", "is required", "requires", "excludes", "subcommand", "INT",
+        "FLOAT", "{", "}", " OR ", "arguments to", "At Most", "At least"})
     if (holds(complaint, foreign)) return std::string("a library's words: ") + foreign;
   if (holds(complaint, "\n")) return "more than a line";
   if (!holds(complaint, " See: palpa")) return "no way to the help";

@@ -2,8 +2,10 @@
 #include <libusb.h>
 #include <pthread.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/timex.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -26,7 +28,33 @@ Function* original(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-constexpr time_t kLongAgo = 100'000'000;  // 1973
+constexpr time_t kLongAgo = 100'000'000;     // 1973
+constexpr time_t kFarAhead = 7'258'118'400;  // 2200
+std::atomic<long> writes{0};                 // to files that are no streams of the program
+
+/// Whether the drive has refused: from the PALPA_FAULT_AFTER-th write on, and for ever.
+bool driveHasFailed() {
+  static const char* after = std::getenv("PALPA_FAULT_AFTER");
+  static const long most = after ? std::atol(after) : 0;
+  return writes > most;
+}
+
+/// 0, or what a write to this file, or its way to the drive, is answered.
+int driveError(int file, bool is_write) {
+  const bool is_broken = isFault("broken drive");
+  if (file <= STDERR_FILENO || !(is_broken || isFault("drive fills"))) return 0;
+  struct stat status {};
+  if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+  if (is_write) ++writes;
+  if (!driveHasFailed()) return 0;
+  return is_broken ? EIO : is_write ? ENOSPC : 0;
+}
+
+template <class Result>
+Result refused(int error) {
+  errno = error;
+  return -1;
+}
 
 bool hasUsbDevice() { return isFault("usb denied") || isFault("usb busy") || isFault("usb mute"); }
 thread_local timespec promised;  // what a thread was promised when it went to sleep
@@ -48,6 +76,7 @@ int clock_gettime(clockid_t clock, timespec* t) noexcept {
   static std::atomic<int> asked{0};
   if (isFault("date of long ago")) t->tv_sec = kLongAgo;
   if (isFault("date is set")) t->tv_sec += 7 * asked++;
+  if (isFault("date jumps")) t->tv_sec = asked++ % 2 ? kLongAgo : kFarAhead;
   return result;
 }
 
@@ -108,6 +137,43 @@ int access(const char* path, int mode) noexcept {
   if (!(mode & W_OK) || !isFault("read-only disk")) return real(path, mode);
   errno = EROFS;
   return -1;
+}
+
+// A drive that fails while a program writes, or that is full then.
+ssize_t write(int file, const void* bytes, size_t count) {
+  static auto* real = original<ssize_t(int, const void*, size_t)>("write");
+  const int error = driveError(file, true);
+  return error ? refused<ssize_t>(error) : real(file, bytes, count);
+}
+
+ssize_t writev(int file, const iovec* parts, int count) {
+  static auto* real = original<ssize_t(int, const iovec*, int)>("writev");
+  const int error = driveError(file, true);
+  return error ? refused<ssize_t>(error) : real(file, parts, count);
+}
+
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
+  static auto* real = original<ssize_t(int, const void*, size_t, off_t)>("pwrite");
+  const int error = driveError(file, true);
+  return error ? refused<ssize_t>(error) : real(file, bytes, count, at);
+}
+
+ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) {
+  static auto* real = original<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
+  const int error = driveError(file, true);
+  return error ? refused<ssize_t>(error) : real(file, bytes, count, at);
+}
+
+int fsync(int file) {
+  static auto* real = original<int(int)>("fsync");
+  const int error = driveError(file, false);
+  return error ? refused<int>(error) : real(file);
+}
+
+int fdatasync(int file) {
+  static auto* real = original<int(int)>("fdatasync");
+  const int error = driveError(file, false);
+  return error ? refused<int>(error) : real(file);
 }
 
 // A Falcon on a cable: its kernel node belongs to somebody else, or another program has it, or it

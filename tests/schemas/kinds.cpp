@@ -287,7 +287,8 @@ std::vector<Kind> patientKinds() {
 void readWholeProtocol(const fs::path& path) {
   study::readProtocol(path);
   const JsonFile file(path);
-  if (file.has("analysis")) study_analysis::studyKindNamed(file.text("analysis"), "analysis");
+  if (file.has("analysis"))
+    study_analysis::studyKindNamed(file.text("analysis"), path.string() + ", field \"analysis\"");
 }
 
 void readLearnersOf(const fs::path& file, const char* protocol) {
@@ -296,56 +297,61 @@ void readLearnersOf(const fs::path& file, const char* protocol) {
 
 std::vector<Kind> studyKinds() {
   const json learners_about = {{"about", "a test"}};
-  return {
-      {.name = "protocol",
-       .samples = {{"protocols/search_study.json",
-                    {{"always", {{"guide", false}, {"mode", "real"}}}, {"excluded", {"T001"}}}},
-                   {"protocols/paracentesis_pilot.json", json::object()}},
-       .read = readWholeProtocol,
-       // Conditions are asked for by name, none in vain; tasks and questionnaires must exist; a
-       // rest has a length; blocks of an allocation can be balanced.
-       // Presentations are asked for by name, too.
-       .stricter = {"/conditions.*", " without allocation", "/allocation/.*", "/sessions.*",
-                    "/always/presentation.*"},
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "presentation",
-       .samples = {{"presentations/pilot.json", json::object()},
-                   {"presentations/practice.json", json::object()}},
-       .read = [](const fs::path& file) { presentation::readPresentation(file); },
-       .stricter = {},
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "questionnaire",
-       .samples = {{"protocols/questionnaires/search_study.json", json::object()},
-                   {"protocols/questionnaires/paracentesis_pilot.json", json::object()}},
-       .read = [](const fs::path& file) { study::readQuestionnaire(file); },
-       .stricter = {},
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "learners",
-       .samples = {{"protocols/learners/search_learners.json", learners_about},
-                   {"protocols/learners/paracentesis_learners.json", learners_about}},
-       .read =
-           [](const fs::path& file) {
-             const bool search = file.filename().string().starts_with("search");
-             readLearnersOf(file, search ? "search_study.json" : "paracentesis_pilot.json");
-           },
-       .stricter = {"/(groups|conditions)/./name.*"},  // those of the protocol
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "checklist",
-       .samples = {{"checklists/subclavian.json", json::object()}},
-       .read = [](const fs::path& file) { competence::parseChecklist(test::slurp(file), "it"); },
-       .stricter = {},
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "global_rating",
-       .samples = {{"checklists/global_rating.json", json::object()}},
-       .read = [](const fs::path& file) { competence::parseGlobalRating(test::slurp(file), "it"); },
-       .stricter = {},
-       .forgiving = {},
-       .elsewhere = {}}};
+  return {{.name = "protocol",
+           .samples = {{"protocols/search_study.json",
+                        {{"always", {{"guide", false}, {"mode", "real"}}}, {"excluded", {"T001"}}}},
+                       {"protocols/paracentesis_pilot.json", json::object()}},
+           .read = readWholeProtocol,
+           // Conditions are asked for by name, none in vain; tasks and questionnaires must exist; a
+           // rest has a length; blocks of an allocation can be balanced.
+           // Presentations are asked for by name, too.
+           .stricter = {"/conditions.*", " without allocation", "/allocation/.*", "/sessions.*",
+                        "/always/presentation.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "presentation",
+           .samples = {{"presentations/pilot.json", json::object()},
+                       {"presentations/practice.json", json::object()}},
+           .read = [](const fs::path& file) { presentation::readPresentation(file); },
+           .stricter = {},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "questionnaire",
+           .samples = {{"protocols/questionnaires/search_study.json", json::object()},
+                       {"protocols/questionnaires/paracentesis_pilot.json", json::object()}},
+           .read = [](const fs::path& file) { study::readQuestionnaire(file); },
+           .stricter = {},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "learners",
+           .samples = {{"protocols/learners/search_learners.json", learners_about},
+                       {"protocols/learners/paracentesis_learners.json", learners_about}},
+           .read =
+               [](const fs::path& file) {
+                 const bool search = file.filename().string().starts_with("search");
+                 readLearnersOf(file, search ? "search_study.json" : "paracentesis_pilot.json");
+               },
+           .stricter = {"/(groups|conditions)/./name.*"},  // those of the protocol
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "checklist",
+           .samples = {{"checklists/subclavian.json", json::object()}},
+           .read =
+               [](const fs::path& file) {
+                 competence::parseChecklist(test::slurp(file), file.string());
+               },
+           .stricter = {},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "global_rating",
+           .samples = {{"checklists/global_rating.json", json::object()}},
+           .read =
+               [](const fs::path& file) {
+                 competence::parseGlobalRating(test::slurp(file), file.string());
+               },
+           .stricter = {},
+           .forgiving = {},
+           .elsewhere = {}}};
 }
 
 std::vector<Kind> operatorKinds() {

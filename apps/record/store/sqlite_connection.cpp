@@ -112,12 +112,12 @@ class SqliteConnection final : public SqlConnection {
   }
 
   void checkPages() {
-    if (const std::string verdict = database_.text("PRAGMA quick_check"); verdict != "ok")
-      failDamaged(verdict);
+    if (database_.text("PRAGMA quick_check") != "ok")
+      failDamaged("its pages contradict each other");
   }
 
   [[noreturn]] void failDamaged(const std::string& reason) const {
-    throw Error("is damaged (" + reason.substr(0, reason.find('\n')) + ")", place(),
+    throw Error("is damaged (" + reason + ")", place(),
                 "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE "
                 ".recover`");
   }
@@ -143,9 +143,9 @@ class SqliteConnection final : public SqlConnection {
                          e.code == SQLITE_PROTOCOL;
       const bool broken = e.code == SQLITE_CORRUPT || e.code == SQLITE_NOTADB ||
                           e.code == SQLITE_ERROR;  // the last: tables are not as they were made
-      if (broken) failDamaged(sqlite3_errmsg(database_.handle()));
+      if (broken) failDamaged(reasonOf(e.code));
       if (!later) throw;
-      throw StoreUnreachable(std::string("cannot be written now (") + sqlite3_errstr(e.code) + ")",
+      throw StoreUnreachable(std::string("cannot be written now (") + reasonOf(e.code) + ")",
                              place(),
                              "Free the disk or close what holds the file; trials are kept on this "
                              "station and sent later");
