@@ -33,6 +33,7 @@ over() { ! kill -0 $program 2>/dev/null; }
 
 begin() {   # a session of a simulated expert, in a window of a display of its own
   out=$work/$1
+  rm -f "$work/display"
   Xvfb -displayfd 3 -screen 0 1280x800x24 3>"$work/display" 2>/dev/null &
   server=$!
   until_true 20 test -s "$work/display"
