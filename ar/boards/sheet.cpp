@@ -5,7 +5,7 @@
 
 #include "anatomy/base/error.h"
 #include "ar/boards/board.h"
-#include "ar/boards/tag_family.h"
+#include "ar/boards/tag_grid.h"
 
 namespace palpa::ar {
 namespace {

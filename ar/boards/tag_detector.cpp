@@ -7,7 +7,7 @@
 
 #include "anatomy/base/error.h"
 #include "ar/boards/gray_picture.h"
-#include "ar/boards/tag_family.h"
+#include "ar/boards/tag_grid.h"
 
 namespace palpa::ar {
 

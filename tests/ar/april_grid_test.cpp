@@ -5,7 +5,7 @@
 #include <set>
 
 #include "anatomy/base/error.h"
-#include "ar/boards/tag_family.h"
+#include "ar/boards/tag_grid.h"
 #include "tests/ar/lens.h"
 
 namespace palpa::ar {
