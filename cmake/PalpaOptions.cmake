@@ -55,8 +55,9 @@ if(PALPA_SANITIZE MATCHES "undefined" AND PALPA_PREBUILT)
   add_compile_options(-fno-sanitize=null,alignment)
 endif()
 
-# What a fault in parsing, of ours or of a library, must not become: a smashed stack is noticed, calls
-# with a size known are checked, addresses cannot be rewritten after the start. Sanitizers see more.
+# What a fault in parsing, of ours or of a library, must not become: a smashed stack is noticed,
+# calls whose size is known are checked, addresses cannot be rewritten after the start. Sanitizers
+# see more.
 option(PALPA_HARDENED "Stack protector, fortified calls, immediate binding" ON)
 if(PALPA_HARDENED AND NOT PALPA_SANITIZE)
   add_compile_options(-fstack-protector-strong -fstack-clash-protection)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# hardened.sh BUILD: the program is built so that a fault in parsing stays a crash: by what the linker
-# noted in it, and by hardening-check (package devscripts) where that is installed.
+# hardened.sh BUILD: the program is built so that a fault in parsing stays a crash: by what the
+# linker noted in it, and by hardening-check (package devscripts) where that is installed.
 set -euo pipefail
 build=$1
 here=$(cd "$(dirname "$0")" && pwd)
