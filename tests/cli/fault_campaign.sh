@@ -13,8 +13,8 @@ count=${3:-50}
 top=$(cd "$(dirname "$0")/../.." && pwd)
 library_words=$top/tests/support/library_words.txt
 kinds=(
-  'disk full' 'drive broken' 'memory' 'descriptors' 'size of files' 'killed' 'stopped' 'asked to end'
-  'clock jumps' 'records lost'
+  'disk full' 'drive broken' 'memory' 'descriptors' 'size of files' 'killed' 'stopped'
+  'asked to end' 'clock jumps' 'records lost'
 )
 longest_s=120  # of a session of a second, on a loaded computer
 nothing_yet=40000  # bytes of evidence that says not yet what it is

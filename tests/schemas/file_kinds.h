@@ -21,7 +21,7 @@ struct FileKind {
   std::function<void(const std::filesystem::path&)> read;  ///< throws for what is refused
   /// Renews a checksum after damage; empty: there is none.
   std::function<std::string(const std::string& bytes)> seal = {};
-  bool is_folder = false;  ///< is read together with what lies beside it
+  bool is_folder = false;   ///< is read together with what lies beside it
   bool has_places = false;  ///< what is wrong is said of a field, a line or a row
 };
 
