@@ -154,16 +154,21 @@ worded() {
   grep -q '^palpa: .' "$1" || complain "no words: $(head -n 2 "$1")"
 }
 
+evidence_bytes() { cat "$out"/session.palpa "$out"/session.palpa-wal 2>/dev/null | wc -c; }
+
 outcome_has_words() {
   if [ "$kind" = killed ] && [ $code = 137 ]; then
     outcome='killed'
     return
   fi
+  if [ "$kind" = 'asked to end' ] && [ $code -gt 128 ] &&
+    [ "$(evidence_bytes)" -le $nothing_yet ]; then
+    outcome='ends as any program does'  # before it was a session
+    return
+  fi
   outcome="ends with $code"
   worded "$here/complained" $code
 }
-
-evidence_bytes() { cat "$out"/session.palpa "$out"/session.palpa-wal 2>/dev/null | wc -c; }
 
 evidence_holds() {
   [ -e "$out/session.palpa" ] || return 1
