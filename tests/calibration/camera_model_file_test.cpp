@@ -191,6 +191,17 @@ TEST_F(CameraFile, RefusesWhatIsNoCalibration) {
   EXPECT_THROW(readCameraModel(folder_ / "absent.yml"), Error);
 }
 
+TEST_F(CameraFile, WhatIsNestedDeepEndsNoReader) {
+  constexpr std::size_t kDeep = 100'000;
+  std::string tags;
+  for (std::size_t i = 0; i < kDeep; ++i) tags += "<a>";
+  for (const auto& [name, text] :
+       {std::pair<std::string, std::string>{"deep.yml",
+                                            "%YAML:1.0\n---\na: " + std::string(kDeep, '[')},
+        {"deep.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>" + tags}})
+    EXPECT_NE(complaint(name, text).find("is nested too deep"), std::string::npos) << name;
+}
+
 /// Cut anywhere, or with any byte changed: accepted or refused in our words, nothing else.
 TEST_F(CameraFile, DamageNeverLeaksAnotherException) {
   writeCameraModel(sampleCameras()[1], folder_ / "whole.json");
