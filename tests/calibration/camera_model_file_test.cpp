@@ -198,7 +198,7 @@ TEST_F(CameraFile, WhatIsNestedDeepEndsNoReader) {
   for (const auto& [name, text] :
        {std::pair<std::string, std::string>{"deep.yml",
                                             "%YAML:1.0\n---\na: " + std::string(kDeep, '[')},
-        {"deep.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>" + tags}})
+        {"deep.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>" + tags + "</opencv_storage>"}})
     EXPECT_NE(complaint(name, text).find("is nested too deep"), std::string::npos) << name;
 }
 

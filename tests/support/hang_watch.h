@@ -29,18 +29,21 @@ class HangWatch {
 
   /// The step before has ended, this one begins.
   void begin(std::string step) {
-    const std::lock_guard lock(mutex_);
-    step_ = std::move(step);
-    until_ = std::chrono::steady_clock::now() + longest_;
+    {
+      const std::lock_guard lock(mutex_);
+      step_ = std::move(step);
+      ++number_;
+    }
+    changed_.notify_all();
   }
 
  private:
   void watch() {
     std::unique_lock lock(mutex_);
     while (!is_over_) {
-      const auto until = until_;
-      changed_.wait_until(lock, until, [this] { return is_over_; });
-      if (is_over_ || std::chrono::steady_clock::now() < until_) continue;
+      const int watched = number_;
+      if (changed_.wait_for(lock, longest_, [&] { return is_over_ || number_ != watched; }))
+        continue;
       std::fprintf(stderr, "hangs: %s\n", step_.c_str());
       std::_Exit(1);
     }
@@ -51,7 +54,7 @@ class HangWatch {
   std::condition_variable changed_;
   bool is_over_ = false;
   std::string step_ = "before the first step";
-  std::chrono::steady_clock::time_point until_ = std::chrono::steady_clock::now() + longest_;
+  int number_ = 0;
   std::thread thread_;
 };
 
