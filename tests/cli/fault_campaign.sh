@@ -48,6 +48,10 @@ for little in $(seq 100 50 3000); do  # MB with which the program starts at all
   (ulimit -v $((1024 * little)) && "$palpa" --version) >/dev/null 2>&1 && break
 done
 
+for few in $(seq 4 40); do  # open files with which it starts
+  (ulimit -n $few && "$palpa" --version) >/dev/null 2>&1 && break
+done
+
 # One trainee's records, and a session without a fault.
 export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data
 "$palpa" records trainee add --id T001 --consent --records "$work/records.sqlite" >/dev/null &&
@@ -116,7 +120,7 @@ strike() {
       ;;
     'drive broken') between 0 1600; begin loaded 'broken drive' $drawn ;;
     'memory') between $((1024 * little)) $((1024 * (little + 250))); begin limited -v $drawn ;;
-    'descriptors') between 4 14; begin limited -n $drawn ;;
+    'descriptors') between $few $((few + 10)); begin limited -n $drawn ;;
     'size of files') between 8 5000; begin limited -f $drawn ;;
     'clock jumps') begin loaded 'date jumps' 0 ;;
     *) begin; after_a_while ;;
