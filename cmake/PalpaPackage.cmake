@@ -1,7 +1,5 @@
 # The Debian package: cmake/package.sh, or target `package` of a release build. What it needs to run
 # is found by dpkg-shlibdeps; the rest is loaded by name while it runs.
-set(PALPA_MAINTAINER "Palpa <palpa@localhost.localdomain>" CACHE STRING
-  "Who answers for the package that is built here: name and address")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME palpa)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})

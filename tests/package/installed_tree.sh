@@ -116,5 +116,5 @@ expect "udev rule is for the Falcon, and for whoever sits there" \
   grep -q 'idVendor}=="0403".*idProduct}=="cb48".*uaccess' \
   "$tree/lib/udev/rules.d/60-palpa-falcon.rules"
 expect "licence" grep -q Apache-2.0 "$tree/share/doc/palpa/copyright"
-expect "changes" bash -c "zcat '$tree/share/doc/palpa/changelog.gz' | grep -q 0.1.0"
+expect "changes" bash -c "zcat '$tree/share/doc/palpa/CHANGELOG.md.gz' | grep -q 0.1.0"
 finish
