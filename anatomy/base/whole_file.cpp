@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -95,7 +96,8 @@ Claimed claim(const fs::path& file, const std::string& ending, mode_t mode) {
 
 }  // namespace
 
-WholeFile::WholeFile(const fs::path& file, Lasts lasts) : file_(file), lasts_(lasts) {
+WholeFile::WholeFile(const fs::path& file, Lasts lasts, Readers readers)
+    : file_(file), lasts_(lasts), readers_(readers) {
   std::error_code none;
   const fs::file_type there = fs::status(file_, none).type();
   if (there == fs::file_type::directory || file_.filename().empty()) fail(EISDIR);
@@ -110,8 +112,19 @@ WholeFile::WholeFile(const fs::path& file, Lasts lasts) : file_(file), lasts_(la
 
 WholeFile::~WholeFile() { discard(); }
 
+namespace {
+
+/// As many may read the new file as the old one.
+mode_t modeOf(const fs::path& file) {
+  struct stat there {};
+  const bool is_file = ::stat(file.c_str(), &there) == 0 && S_ISREG(there.st_mode);
+  return is_file ? there.st_mode & 0666 : 0666;
+}
+
+}  // namespace
+
 void WholeFile::open() {
-  Claimed claimed = claim(file_, "", 0666);
+  Claimed claimed = claim(file_, "", readers_ == Readers::owner ? 0600 : modeOf(file_));
   beside_ = std::move(claimed.name);
   descriptor_ = claimed.descriptor;
   if (descriptor_ < 0) fail(errno);
@@ -167,8 +180,8 @@ void WholeFile::fail(int reason) {
   failFile("cannot be written", file_, reason);
 }
 
-void writeWhole(const fs::path& file, std::string_view content, Lasts lasts) {
-  WholeFile whole(file, lasts);
+void writeWhole(const fs::path& file, std::string_view content, Lasts lasts, Readers readers) {
+  WholeFile whole(file, lasts, readers);
   whole.write(content);
   whole.finish();
 }

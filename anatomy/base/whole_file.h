@@ -13,13 +13,18 @@ namespace palpa {
 /// one. `no`: for what is made again easily, or in great numbers.
 enum class Lasts { yes, no };
 
+/// Of a new file: whom the umask lets, or its owner alone. One that takes the place of another is
+/// read by no more than that one.
+enum class Readers { by_umask, owner };
+
 /// A file that is there whole or not at all: written beside under a name of its own
 /// (".NAME.part-PID-N"), renamed by finish(). What fails or is left unfinished is removed. A link
 /// of the file's name is replaced, never followed. Never takes the place of a session or of
 /// records. All throw Error.
 class WholeFile {
  public:
-  explicit WholeFile(const std::filesystem::path& file, Lasts lasts = Lasts::yes);
+  explicit WholeFile(const std::filesystem::path& file, Lasts lasts = Lasts::yes,
+                     Readers readers = Readers::by_umask);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
@@ -35,12 +40,13 @@ class WholeFile {
 
   std::filesystem::path file_, beside_;
   Lasts lasts_;
+  Readers readers_;
   std::string waiting_;  ///< to be written
   int descriptor_ = -1;
 };
 
 void writeWhole(const std::filesystem::path& file, std::string_view content,
-                Lasts lasts = Lasts::yes);
+                Lasts lasts = Lasts::yes, Readers readers = Readers::by_umask);
 
 /// An empty file beside `file`, for a writer that opens it by its name: hidden, of the same ending,
 /// and new. Whoever asked renames or removes it. Throws Error.

@@ -13,6 +13,7 @@
 #include "apps/evidence/session_files.h"
 #include "apps/link/outbox.h"
 #include "apps/runtime/clock.h"
+#include "apps/session/finish_session.h"
 #include "apps/study/run/station_copy.h"
 
 namespace palpa::cli {
@@ -191,6 +192,7 @@ std::size_t Deletion::sayWhatIsLeft() {
 void Deletion::finish() {
   sayWhatIsKept();
   takeBack();
+  session::unfinishedSessions();  // forgets, with their paths, those that are gone
   for (std::string& trouble : store_.settleDeletions()) troubles_.push_back(std::move(trouble));
   for (const std::string& trouble : troubles_) std::printf("Not deleted: %s\n", trouble.c_str());
   if (const std::size_t left = sayWhatIsLeft(); left + troubles_.size() > 0)

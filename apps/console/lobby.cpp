@@ -106,7 +106,8 @@ void Lobby::letIn(int listener) {
   for (int callers = 0; callers < kCallersAtOnce && os::ready(listener, os::Wait::to_read, 0);
        ++callers) {
     const int socket = os::acceptOne(listener);
-    if (socket < 0) {  // no descriptor left: one who waits gives theirs
+    if (socket < 0 && socket != os::kNoMoreSockets) continue;  // gone already
+    if (socket < 0) {                                          // one who waits gives theirs
       if (waiting_.empty()) return runtime::rest(kNoDescriptor);
       waiting_.erase(waiting_.begin());
       return ways_.away();

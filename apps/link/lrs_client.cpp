@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr char kPasswordVariable[] = "PALPA_XAPI_PASSWORD";
 
 bool isThisComputer(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
+  return host == "localhost" || host == "::1" || os::isLoopbackAddress(host);
 }
 
 UsageError noAddress(const std::string& why) {

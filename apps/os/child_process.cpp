@@ -137,6 +137,7 @@ void askToEnd(const ProcessId& process) {
 void becomeAnew(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"palpa"};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  ::signal(SIGPIPE, SIG_DFL);  // ignored, it would stay so
   ::execv("/proc/self/exe", pointersTo(words).data());
 }
 

@@ -101,7 +101,7 @@ std::string programStamp() {
 bool errorsGoToTerminal() { return ::isatty(STDERR_FILENO) != 0; }
 
 std::unique_ptr<FileLock> FileLock::exclusive(const std::filesystem::path& file, Missing missing) {
-  const int flags = missing == Missing::is_made ? O_RDWR | O_CREAT : O_RDONLY;
+  const int flags = missing == Missing::is_made ? O_RDWR | O_CREAT | O_NOFOLLOW : O_RDONLY;
   const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0600);
   if (descriptor < 0) return nullptr;
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0)

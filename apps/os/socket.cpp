@@ -76,7 +76,10 @@ std::optional<std::size_t> receiveSome(int socket, void* bytes, std::size_t size
 }
 
 int acceptOne(int listener) {
-  return ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  const int socket = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (socket >= 0) return socket;
+  const bool none_left = errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM;
+  return none_left ? kNoMoreSockets : -1;
 }
 
 std::optional<Address> peerOf(int socket) { return addressFrom(::getpeername, socket); }

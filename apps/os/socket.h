@@ -28,8 +28,9 @@ std::optional<std::size_t> sendSome(int socket, const void* bytes, std::size_t s
 std::optional<std::size_t> receiveSome(int socket, void* bytes, std::size_t size);
 
 /// One of those who knock at a listening socket; it never waits, and no child inherits it. -1:
-/// nobody does.
+/// nobody does, or not any more; kNoMoreSockets: this process, or the system, has no more to give.
 int acceptOne(int listener);
+inline constexpr int kNoMoreSockets = -2;
 
 struct Address {
   std::string ip;  ///< in figures; empty for a local socket

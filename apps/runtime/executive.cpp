@@ -131,7 +131,7 @@ class RealExecutive final : public Executive {
     entries_.push_back(std::move(entry));
   }
   void stop() noexcept override { stopped_.store(true); }
-  void whenStuck(std::function<void(const Stuck&)> give_up, std::int64_t patience_ns) override {
+  void whenStuck(GiveUp give_up, std::int64_t patience_ns) override {
     give_up_ = std::move(give_up);
     patience_ns_ = patience_ns;
   }
@@ -200,7 +200,19 @@ class RealExecutive final : public Executive {
     Stuck stuck;
     for (const auto& entry : entries_)
       if (!entry->over.load()) stuck.push_back(entry->activity->name());
-    if (!stuck.empty()) give_up_(stuck);
+    if (!stuck.empty()) give_up_(stuck, failureInWords());
+  }
+
+  std::string failureInWords() {
+    const std::lock_guard lock(failure_mutex_);
+    try {
+      if (failure_) std::rethrow_exception(failure_);
+    } catch (const std::exception& e) {
+      return e.what();
+    } catch (...) {
+      return "an unknown failure";
+    }
+    return "";
   }
 
   void loop(ActivityThread& entry) {
@@ -231,7 +243,7 @@ class RealExecutive final : public Executive {
 
   SteadyClock clock_;
   std::vector<std::unique_ptr<ActivityThread>> entries_;
-  std::function<void(const Stuck&)> give_up_;
+  GiveUp give_up_;
   std::int64_t patience_ns_ = 0;
   std::atomic<bool> stopped_{false};
   std::mutex failure_mutex_;

@@ -68,10 +68,12 @@ class Executive {
   virtual void stop() noexcept = 0;
   /// What hangs in a call that does not come back would hold up the end of `run` for ever. Some
   /// seconds after a stop `giveUp` is then called, on a thread of its own, with the names of the
-  /// activities whose last step is not over; all others have ended. It has to end the program. In
-  /// virtual time nothing is given up.
+  /// activities whose last step is not over; all others have ended. It has to end the program;
+  /// `failure`: what one of them threw before, in words, or empty. In virtual time nothing is given
+  /// up.
   using Stuck = std::vector<std::string>;
-  virtual void whenStuck(std::function<void(const Stuck&)>, std::int64_t /*patience_ns*/) {}
+  using GiveUp = std::function<void(const Stuck&, const std::string& failure)>;
+  virtual void whenStuck(GiveUp, std::int64_t /*patience_ns*/) {}
   /// Activities whose step has lasted this long; any thread.
   virtual Stuck stuckFor(std::int64_t) const { return {}; }
   virtual std::vector<Lateness> lateness() const { return {}; }

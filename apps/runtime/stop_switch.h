@@ -16,9 +16,9 @@ class StopSwitch {
   void rearm(std::uint32_t seen) noexcept { rearmed_.store(seen, std::memory_order_release); }
   /// The session ends: no force from now on, and nobody re-arms.
   void end() noexcept { ended_.store(true, std::memory_order_release); }
+  bool ended() const noexcept { return ended_.load(std::memory_order_acquire); }
   bool noForce() const noexcept {
-    return ended_.load(std::memory_order_acquire) ||
-           presses() != rearmed_.load(std::memory_order_acquire);
+    return ended() || presses() != rearmed_.load(std::memory_order_acquire);
   }
 
  private:

@@ -33,24 +33,33 @@ std::string listed(const runtime::Executive::Stuck& stuck) {
   return all;
 }
 
-/// The rest of a session of which something hangs: the evidence is closed, unless that hangs, and
-/// this program, anew, makes of it what the session owes.
-[[noreturn]] void leaveBehind(const runtime::Executive::Stuck& stuck,
-                              runtime::RecorderActivity& recorder, record::SessionWriter& writer,
-                              const std::filesystem::path& folder) {
-  std::fprintf(stderr, "palpa: %s did not answer at the end of the session and was left behind\n",
-               listed(stuck).c_str());
+/// One that nothing follows: neither a study's next block, nor a trainee's session after what is
+/// demonstrated.
+bool standsAlone(const SessionOptions& options) {
+  return options.study.id.empty() && options.role != training::Role::demonstration;
+}
+
+void sayTrouble(const std::string& words) { std::fprintf(stderr, "palpa: %s\n", words.c_str()); }
+
+void closeEvidence(runtime::RecorderActivity& recorder, record::SessionWriter& writer) {
   try {
-    if (std::find(stuck.begin(), stuck.end(), recorder.name()) == stuck.end()) {
-      recorder.finish();
-      writer.close();
-    }
+    recorder.finish();
+    writer.close();
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "palpa: %s\n", e.what());
+    sayTrouble(e.what());
   }
-  os::becomeAnew({"finish", folder.string()});
-  std::fprintf(stderr, "palpa: the report was not made; palpa finish %s makes it\n",
-               folder.c_str());
+}
+
+/// A session of which something hangs: this program, anew, makes of its evidence what it owes.
+[[noreturn]] void leaveBehind(const SessionOptions& options, const std::filesystem::path& folder) {
+  if (!options.live.empty())  // nobody listens at them any more
+    for (const std::string& socket : {options.live, live::stopSocketOf(options.live)}) {
+      std::error_code ignored;
+      std::filesystem::remove(socket, ignored);
+    }
+  if (standsAlone(options)) os::becomeAnew({"finish", folder.string()});
+  sayTrouble("the report was not made, and nothing after it: palpa finish " + folder.string() +
+             " makes it; then start again");
   std::_Exit(EXIT_FAILURE);
 }
 
@@ -195,8 +204,12 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   if (stop_key) executive_->add(*stop_key, {9, false, false});
   igtl.addTo(*executive_);
   executive_->whenStuck(
-      [&](const runtime::Executive::Stuck& stuck) {
-        leaveBehind(stuck, recorder, writer, folder_);
+      [&](const runtime::Executive::Stuck& stuck, const std::string& failure) {
+        if (!failure.empty()) sayTrouble(failure);
+        sayTrouble(listed(stuck) + " did not answer at the end of the session and was left behind");
+        if (std::find(stuck.begin(), stuck.end(), recorder.name()) == stuck.end())
+          closeEvidence(recorder, writer);
+        leaveBehind(options_, folder_);
       },
       kEndPatience);
   executive_->run();

@@ -38,17 +38,22 @@ std::string partInWords(const std::string& activity) {
 }
 
 std::int64_t SessionWatch::step(std::int64_t now_ns) {
-  if (note_.noted()) return endSession("Interrupted");
-  if (window_lost_.load()) return endSession("The window is gone");
+  if (note_.noted()) return endSession("Interrupted", now_ns);
+  if (window_lost_.load()) return endSession("The window is gone", now_ns);
   if (executive_.mode() == runtime::TimeMode::virtual_time) return now_ns + kVirtualPeriod;
   if (now_ns >= next_look_ns_) nameTheStuck(now_ns);
   return now_ns + kSignalPeriod;
 }
 
-std::int64_t SessionWatch::endSession(const char* why) {
+/// The task ends the session; one that hangs is not waited for.
+std::int64_t SessionWatch::endSession(const char* why, std::int64_t now_ns) {
   stop_.end();
-  channels_.signals_to_task.push({trial::UserCommand::quit, why});
-  return runtime::kNever;
+  if (!heard_) heard_ = channels_.signals_to_task.push({trial::UserCommand::quit, why});
+  if (executive_.mode() == runtime::TimeMode::virtual_time)
+    return heard_ ? runtime::kNever : now_ns + kVirtualPeriod;
+  if (asked_ns_ < 0) asked_ns_ = now_ns;
+  if (now_ns - asked_ns_ > kStuck) executive_.stop();
+  return now_ns + kSignalPeriod;
 }
 
 void SessionWatch::nameTheStuck(std::int64_t now_ns) {

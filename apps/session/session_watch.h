@@ -19,8 +19,7 @@ namespace palpa::session {
 /// named in the record and to whoever looks on, and again when it is back.
 class SessionWatch final : public runtime::Activity {
  public:
-  SessionWatch(const runtime::Executive& executive, trial::Channels& channels,
-               runtime::StopSwitch& stop)
+  SessionWatch(runtime::Executive& executive, trial::Channels& channels, runtime::StopSwitch& stop)
       : executive_(executive), channels_(channels), stop_(stop) {}
   const char* name() const override { return "watch"; }
   std::int64_t step(std::int64_t now_ns) override;
@@ -28,16 +27,18 @@ class SessionWatch final : public runtime::Activity {
   void windowIsLost() noexcept { window_lost_.store(true); }  ///< any thread
 
  private:
-  std::int64_t endSession(const char* why);
+  std::int64_t endSession(const char* why, std::int64_t now_ns);
   void nameTheStuck(std::int64_t now_ns);
 
-  const runtime::Executive& executive_;
+  runtime::Executive& executive_;
   trial::Channels& channels_;
   runtime::StopSwitch& stop_;
   std::atomic<bool> window_lost_{false};
   os::InterruptNote note_;
   runtime::Executive::Stuck stuck_;  ///< as last named
   std::int64_t next_look_ns_ = 0;
+  std::int64_t asked_ns_ = -1;  ///< the session was asked to end
+  bool heard_ = false;          ///< there was room for the request
 };
 
 /// What a person calls a part of the session: "the picture" for "scene".

@@ -209,7 +209,8 @@ void TrialTask::listen(std::int64_t now_ns) {
 /// device that has lost its position pauses the trial: force comes back when somebody asks for it.
 void TrialTask::watchSafety(const haptics::FlightRecord& record) {
   using haptics::SafetyCause;
-  if (record.events & haptics::kSafetyTripped) {
+  const bool by_the_end = record.safety == SafetyCause::emergency_stop && bus_.stop.ended();
+  if ((record.events & haptics::kSafetyTripped) && !by_the_end) {
     report(record.t_ns, EventKind::safety, "Force taken away: " + whyText(record.safety));
     status_.trip = record.safety;
     trip_ns_ = record.t_ns;
@@ -313,6 +314,7 @@ void TrialTask::watchStop(std::int64_t now_ns) {
 }
 
 void TrialTask::stopAll(std::int64_t now_ns) {
+  if (status_.emergency_stop) return;  // a key that is held presses many times
   status_.emergency_stop = true;
   status_.alarm = true;
   status_.notice = "EMERGENCY STOP: forces are off. R re-arms, then Enter continues";

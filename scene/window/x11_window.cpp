@@ -18,13 +18,14 @@ namespace {
 
 std::mutex lost_mutex;
 std::function<void()> tell_lost;
-bool listened_to = false;
+bool listened_to = false, is_lost = false;
 
-/// False: nobody wants to know.
+/// False: nobody has wanted to know. Once somebody did, what comes later is no news.
 bool tellLost() {
   const std::lock_guard lock(lost_mutex);
+  is_lost = is_lost || listened_to;
   if (tell_lost) std::exchange(tell_lost, nullptr)();
-  return listened_to;
+  return is_lost;
 }
 
 void endWithoutWindow() {
@@ -34,10 +35,13 @@ void endWithoutWindow() {
   std::_Exit(EXIT_FAILURE);
 }
 
-/// Most of all that another program has destroyed the window: what still is drawn into it goes
-/// nowhere.
-int noteXError(::Display*, XErrorEvent*) {
-  if (!tellLost()) endWithoutWindow();
+/// Another program has destroyed the window, or what is drawn into: what still is drawn goes
+/// nowhere. Other errors are of single requests; the window is there.
+int noteXError(::Display*, XErrorEvent* error) {
+  constexpr int kFirstOfExtensions = 128;  // of GLX: its drawable is gone
+  const bool is_gone = error->error_code == BadWindow || error->error_code == BadDrawable ||
+                       error->error_code >= kFirstOfExtensions;
+  if (is_gone && !tellLost()) endWithoutWindow();
   return 0;
 }
 

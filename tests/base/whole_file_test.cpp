@@ -166,5 +166,17 @@ TEST(ReadWhole, GivesEveryByteAndNothingWhereThereIsNoFile) {
   EXPECT_EQ(readWhole(folder), std::nullopt);
 }
 
+TEST(WholeFile, ANewFileIsReadByNoMoreThanTheOldOne) {
+  using std::filesystem::perms;
+  const auto folder = test::freshFolder("base", "whole_file_readers");
+  const auto readers = [&](const char* name) {
+    return std::filesystem::status(folder / name).permissions() & perms::mask;
+  };
+  writeWhole(folder / "own", "x", Lasts::no, Readers::owner);
+  EXPECT_EQ(readers("own"), perms::owner_read | perms::owner_write);
+  writeWhole(folder / "own", "y", Lasts::no);
+  EXPECT_EQ(readers("own"), perms::owner_read | perms::owner_write) << "as it was";
+}
+
 }  // namespace
 }  // namespace palpa

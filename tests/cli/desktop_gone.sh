@@ -52,6 +52,8 @@ finished() {   # WORDS: the program ends by itself; nothing is owed
   expect "$1: ends in order" test $code = 0
   expect "$1: report" test -s "$out/report.html"
   expect "$1: table" test -s "$out/trials.csv"
+  expect "$1: nobody pressed the emergency stop" bash -c \
+    "! grep -qi 'emergency stop' '$out/report.html'"
   [ $code = 0 ] || tail -n 5 "$out.said"
   kill -KILL $server 2>/dev/null
   wait $server 2>/dev/null

@@ -172,7 +172,7 @@ TEST(StopSwitch, IsObeyedWhileEveryOtherThreadHangs) {
     executive->add(*activity, {0, activity == &loop.haptic, activity == &scene});
   Executive::Stuck stuck;
   executive->whenStuck(
-      [&](const Executive::Stuck& names) {
+      [&](const Executive::Stuck& names, const std::string&) {
         stuck = names;
         released.set_value();
       },
@@ -192,7 +192,7 @@ TEST(RealExecutive, NothingIsGivenUpThatEndsInTime) {
   Doing scene("scene",
               [&](std::int64_t now) { return ++steps == 20 ? kNever : now + kMillisecond; });
   executive->add(scene, {0, false, true});
-  executive->whenStuck([&](const Executive::Stuck&) { ++given_up; }, kSecond);
+  executive->whenStuck([&](const Executive::Stuck&, const std::string&) { ++given_up; }, kSecond);
   executive->run();
   EXPECT_EQ(steps, 20);
   EXPECT_EQ(given_up, 0);

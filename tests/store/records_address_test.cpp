@@ -37,6 +37,17 @@ TEST(RecordsAddress, SettingsAsWordsAndOtherSchemesAreRefusedWithoutTheirSecret)
   EXPECT_NE(whyRefused("mysql://h/db").find("mysql://"), std::string::npos);
 }
 
+/// As libpq reads an address: what stands before the first "@" is user and password, whatever it
+/// holds.
+TEST(RecordsAddress, APasswordHidesTheServerBehindNoSign) {
+  EXPECT_NE(whyRefused("postgresql://ann:ge?heim@db.example/records"), "");
+  EXPECT_NE(whyRefused("postgresql://ann:ge,heim@db.example/records"), "");
+  EXPECT_EQ(withEncryption("postgresql://localhost?@db.example/r", {}),
+            "postgresql://localhost?@db.example/r?sslmode=verify-full");
+  EXPECT_EQ(withEncryption("postgresql://us?er@db.example/r", {}),
+            "postgresql://us?er@db.example/r?sslmode=verify-full");
+}
+
 constexpr char kFull[] = "sslmode=verify-full";
 
 TEST(RecordsAddress, OnThisComputerItStaysAsItIs) {

@@ -144,6 +144,39 @@ TEST_F(Rehearsing, ATrialIsMarkedByTheTicksThatItMissed) {
   EXPECT_EQ(task.state(), TrialState::waiting);
 }
 
+TEST_F(Rehearsing, AStopKeyThatIsHeldIsOneEmergencyStopUntilSomebodyReArms) {
+  run(210);
+  for (int i = 0; i < 5; ++i) {
+    bus.stop.press();
+    step();
+  }
+  EXPECT_EQ(of(runtime::EventKind::emergency_stop).size(), 1u);
+  channels.requests_to_task.push({UserCommand::rearm, ""});
+  step();
+  EXPECT_FALSE(bus.stop.noForce());
+  bus.stop.press();
+  step();
+  EXPECT_EQ(of(runtime::EventKind::emergency_stop).size(), 2u);
+}
+
+/// The loop takes the force away as for an emergency stop; but nobody pressed one.
+TEST_F(Rehearsing, TheEndOfASessionIsNoEmergencyStop) {
+  run(210);
+  const auto trip = [this] {
+    haptics::FlightRecord tick{};
+    tick.t_ns = now;
+    tick.reading.homed = 1;
+    tick.safety = haptics::SafetyCause::emergency_stop;
+    tick.events = haptics::kSafetyTripped;
+    bus.haptic_to_task.push(tick);
+    step();
+  };
+  bus.stop.end();
+  trip();
+  EXPECT_TRUE(of(runtime::EventKind::safety).empty());
+  EXPECT_TRUE(of(runtime::EventKind::emergency_stop).empty());
+}
+
 TEST_F(Rehearsing, WhatWhoeverHoldsTheDeviceHasToKnowIsSaidToo) {
   task.warn("This device keeps its last force");
   run(210);

@@ -53,7 +53,7 @@ void writeDeletions(const DeletionList& list, const fs::path& file) {
   if (const std::error_code problem = os::makeFolders(file.parent_path()))
     failFile("cannot be made", file.parent_path(), problem,
              "Or set XDG_STATE_HOME to another folder");
-  writeWhole(file, textOf(list).dump(1) + "\n");
+  writeWhole(file, textOf(list).dump(1) + "\n", Lasts::yes, Readers::owner);
 }
 
 }  // namespace palpa::record

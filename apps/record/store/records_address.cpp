@@ -24,6 +24,7 @@ struct ServerAddress {
   std::string user;  ///< and password
   std::vector<std::string> hosts;
   Settings settings;
+  bool asks = false;  ///< there is a "?", with or without settings
   bool has(const std::string& name) const {
     return std::any_of(settings.begin(), settings.end(),
                        [&](const auto& one) { return one.first == name; });
@@ -64,21 +65,23 @@ std::string hostOf(const std::string& text) {
   return decoded(text.substr(0, text.find(':')));
 }
 
+/// As libpq reads it: an "@" before the first "/" ends user and password, whatever they hold.
 ServerAddress parsed(const std::string& address) {
   ServerAddress server;
   std::string_view rest = address;
   rest.remove_prefix(rest.find("://") + 3);
+  if (const std::size_t at = rest.find('@'); at < rest.find('/')) {
+    server.user = rest.substr(0, at);
+    rest.remove_prefix(at + 1);
+  }
   const std::size_t asks = rest.find('?');
+  server.asks = asks != std::string_view::npos;
   if (asks != std::string_view::npos)
     for (const std::string& one : partsOf(rest.substr(asks + 1), '&'))
       server.settings.emplace_back(
           decoded(one.substr(0, one.find('='))),
           one.find('=') == std::string::npos ? "" : decoded(one.substr(one.find('=') + 1)));
-  std::string_view authority = rest.substr(0, std::min(rest.find('/'), asks));
-  if (const std::size_t at = authority.rfind('@'); at != std::string_view::npos) {
-    server.user = authority.substr(0, at);
-    authority.remove_prefix(at + 1);
-  }
+  const std::string_view authority = rest.substr(0, std::min(rest.find('/'), asks));
   for (const std::string& host : partsOf(authority, ',')) server.hosts.push_back(hostOf(host));
   return server;
 }
@@ -186,8 +189,7 @@ std::string withEncryption(const std::string& address, const ServerDefaults& def
           "Beyond this computer leave sslmode out; name the certificate of who signs the "
           "server's: ?sslrootcert=FILE");
   if (server.has("sslmode")) return address;
-  const bool has_settings = address.find('?') != std::string::npos;
-  return address + (has_settings ? "&" : "?") + "sslmode=verify-full";
+  return address + (server.asks ? "&" : "?") + "sslmode=verify-full";
 }
 
 }  // namespace palpa::record

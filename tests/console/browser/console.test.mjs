@@ -30,19 +30,30 @@ const points = () => page.locator(".curves").getAttribute("data-points").then(Nu
 const state = (word) => page.locator(".live-state", { hasText: word });
 const over = () => page.getByRole("link", { name: "Read the result" });
 
-/** A simulated hand may begin by itself; a person's trial waits for the button. */
+/** A simulated hand may begin by itself; a person's trial waits for the button. Where it begins just
+    when the button is pressed, that has become "Pause": then the trial is continued. */
 async function letItRun(where = page) {
-  const go = where.locator("#live-go");
-  await where.waitForFunction(
-    () =>
-      /^Start/.test(document.querySelector("#live-go")?.textContent)
-        ? !document.querySelector("#live-go").hasAttribute("aria-disabled")
-        : /^Pause/.test(document.querySelector("#live-go")?.textContent || ""),
-    null,
-    { timeout: 90_000 },
-  );
-  if (/^Start/.test(await go.textContent())) await go.click().catch(() => {});
-  await where.locator(".live-state", { hasText: "Trial is running" }).waitFor({ timeout: 60_000 });
+  const go = where.locator("#live-go"),
+    running = where.locator(".live-state", { hasText: "Trial is running" });
+  for (let tries = 0; tries < 3; ++tries) {
+    await where.waitForFunction(
+      () => {
+        const button = document.querySelector("#live-go");
+        return /^(Start|Continue)/.test(button?.textContent)
+          ? !button.hasAttribute("aria-disabled")
+          : /^Pause/.test(button?.textContent || "");
+      },
+      null,
+      { timeout: 90_000 },
+    );
+    if (/^(Start|Continue)/.test(await go.textContent())) await go.click().catch(() => {});
+    const runs = await running.waitFor({ timeout: 20_000 }).then(
+      () => true,
+      () => false,
+    );
+    if (runs) return;
+  }
+  throw new Error("the trial does not run");
 }
 
 async function startAssessed(trainee, trials) {
