@@ -5,11 +5,13 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <utility>
 
 #include "anatomy/base/error.h"
 #include "damages.h"
 #include "kinds.h"
 #include "schema_files.h"
+#include "tests/support/counts.h"
 #include "tests/support/scratch_folder.h"
 
 /// A mistyped key is never taken in silence: of every shipped file every key in turn.
@@ -21,6 +23,8 @@ using nlohmann::json;
 
 constexpr double kProposedShare = 0.95;
 constexpr int kMostTakenTold = 20;
+/// Each key in every way in which it is misspelt here, or in one.
+const bool kEverySlip = palpa::test::counted(0, 1) == 1;
 
 struct Tally {
   int misspelt = 0, refused = 0, proposed = 0;
@@ -91,8 +95,10 @@ TEST_F(Misspelt, EveryKeyOfEveryShippedFileIsRefusedAndTheRightOneProposed) {
   for (const std::string& asset : shippedFiles()) {
     const Kind& kind = kinds_.at(readersKind(asset));
     const json document = jsonOf(assetsFolder() / asset);
+    std::string last;
     eachMisspelling(document, [&](const Mistyped& key, const json& changed) {
-      if (isFree(kind, key.place)) return;
+      const bool again = std::exchange(last, key.place) == key.place;
+      if (isFree(kind, key.place) || (again && !kEverySlip)) return;
       put(asset, changed);
       judge(kind, asset, key);
     });
@@ -106,7 +112,7 @@ TEST_F(Misspelt, EveryKeyOfEveryShippedFileIsRefusedAndTheRightOneProposed) {
     all.refused += tally.refused;
     all.proposed += tally.proposed;
   }
-  EXPECT_GT(all.misspelt, 10'000) << "the walk has lost the keys";
+  EXPECT_GT(all.misspelt, kEverySlip ? 10'000 : 3'000) << "the walk has lost the keys";
   EXPECT_EQ(all.refused, all.misspelt);
   EXPECT_GE(all.proposed, kProposedShare * all.misspelt);
   for (const auto& [name, kind] : kinds_)
