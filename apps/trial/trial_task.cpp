@@ -92,7 +92,7 @@ void TrialTask::watchCamera(std::int64_t now_ns) {
 std::string TrialTask::missing(std::int64_t now_ns) {
   if (!last_.reading.homed)
     return status_.device.empty() ? "the haptic device is not homed" : status_.device;
-  if (const std::string tool = notReady(last_); !tool.empty()) return tool;
+  if (std::string tool = notReady(last_); !tool.empty()) return tool;
   return sightTrouble(bus_.camera_to_task.read(now_ns), now_ns);
 }
 
