@@ -67,16 +67,24 @@ void gather(const Part& part, Parts* parts) {
     if (schema.contains(branch)) gather({&schema.at(branch), part.whole}, parts);
 }
 
+/// A part of a schema, by its name; null where there is none.
+const json* memberOf(const json& schema, const std::string& name) {
+  const auto found = schema.find(name);
+  return found == schema.end() ? nullptr : &*found;
+}
+
 /// What the parts at an object know of its fields.
 class KnownFields {
  public:
   explicit KnownFields(const Parts& parts) : parts_(parts) {
     for (const Part& part : parts_) {
       const json& schema = *part.schema;
-      closed_ = closed_ || schema.value("additionalProperties", json()) == false ||
-                schema.value("propertyNames", json::object()).contains("enum");
-      if (!schema.contains("properties")) continue;
-      for (const auto& [name, ignored] : schema.at("properties").items())
+      const json* const more = memberOf(schema, "additionalProperties");
+      const json* const names = memberOf(schema, "propertyNames");
+      closed_ = closed_ || (more && *more == false) || (names && names->contains("enum"));
+      const json* const properties = memberOf(schema, "properties");
+      if (!properties) continue;
+      for (const auto& [name, ignored] : properties->items())
         if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
     }
   }
@@ -88,10 +96,12 @@ class KnownFields {
     if (std::find(names_.begin(), names_.end(), field) != names_.end()) return true;
     if (field.size() > kLongestName) return false;
     return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
-      const json patterns = part.schema->value("patternProperties", json::object());
-      return std::any_of(
-          patterns.items().begin(), patterns.items().end(),
-          [&](const auto& pattern) { return std::regex_search(field, std::regex(pattern.key())); });
+      const json* const patterns = memberOf(*part.schema, "patternProperties");
+      if (!patterns) return false;
+      const auto& all = patterns->items();
+      return std::any_of(all.begin(), all.end(), [&](const auto& pattern) {
+        return std::regex_search(field, std::regex(pattern.key()));
+      });
     });
   }
 
@@ -100,10 +110,10 @@ class KnownFields {
     Parts found;
     for (const Part& part : parts_) {
       const json& schema = *part.schema;
-      if (schema.contains("properties") && schema.at("properties").contains(field))
-        gather({&schema.at("properties").at(field), part.whole}, &found);
-      else if (schema.contains("additionalProperties"))
-        gather({&schema.at("additionalProperties"), part.whole}, &found);
+      const json* const properties = memberOf(schema, "properties");
+      const json* const named = properties ? memberOf(*properties, field) : nullptr;
+      const json* const said = named ? named : memberOf(schema, "additionalProperties");
+      if (said) gather({said, part.whole}, &found);
     }
     return found;
   }
