@@ -33,7 +33,8 @@ installed=$(dpkg-deb -f "$deb" Installed-Size)
 echo "package: $(basename "$deb"), $(stat -c %s "$deb") bytes, $installed kB installed"
 if command -v lintian >/dev/null; then
   known=$(grep -v '^#' "$here/lintian_known.txt" | cut -d' ' -f1 | paste -sd,)
-  lintian --no-cfg --allow-root --pedantic --fail-on error,warning --suppress-tags "$known" "$deb" ||
+  lintian --no-cfg --allow-root --pedantic --fail-on error,warning \
+    --suppress-tags "$known" "$deb" ||
     fail "lintian"
   echo "ok    lintian finds no error and gives no warning"
 fi

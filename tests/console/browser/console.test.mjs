@@ -30,8 +30,8 @@ const points = () => page.locator(".curves").getAttribute("data-points").then(Nu
 const state = (word) => page.locator(".live-state", { hasText: word });
 const over = () => page.getByRole("link", { name: "Read the result" });
 
-/** A simulated hand may begin by itself; a person's trial waits for the button. Where it begins just
-    when the button is pressed, that has become "Pause": then the trial is continued. */
+/** A simulated hand may begin by itself; a person's trial waits for the button. Where it begins
+    just when the button is pressed, that has become "Pause": then the trial is continued. */
 async function letItRun(where = page) {
   const go = where.locator("#live-go"),
     running = where.locator(".live-state", { hasText: "Trial is running" });
