@@ -36,7 +36,7 @@ bool sendAll(int socket, const std::string& bytes) {
 }  // namespace
 
 SessionLink::SessionLink(std::string socket) : path_(std::move(socket)) {
-  thread_ = std::thread([this] { run(); });
+  thread_ = os::startThread([this] { run(); });
 }
 
 SessionLink::~SessionLink() {

@@ -73,6 +73,11 @@ void removeSocket(const std::string& path) {
     ::unlink(path.c_str());
 }
 
+LocalListener::~LocalListener() {
+  ::close(socket_);
+  removeSocket(path_);
+}
+
 int listenAt(const std::string& path, const std::string& advice) {
   const sockaddr_un address = addressOf(path);
   const Place place = whatIsAt(path, address);

@@ -11,6 +11,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "anatomy/base/error.h"
 
 namespace palpa::os {
 namespace {
@@ -75,6 +79,15 @@ std::string becomeRealTime(int cpu) {
   std::string words = askForFifo();
   if (cpu >= 0) words += "; " + askForCpu(cpu);
   return words;
+}
+
+std::thread startThread(std::function<void()> work) {
+  try {
+    return std::thread(std::move(work));
+  } catch (const std::system_error&) {
+    throw Error("gives no further threads", "this computer",
+                "End other programs, or raise the limit (ulimit -u)");
+  }
 }
 
 void shareMemoryPools() { mallopt(M_ARENA_MAX, kMemoryPools); }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <thread>
 
 namespace palpa::os {
 
@@ -26,6 +28,9 @@ class MemoryLock {
 /// did not get: "SCHED_FIFO", "normal priority: SCHED_FIFO refused (Operation not permitted); CPU 3
 /// refused (Invalid argument)".
 std::string becomeRealTime(int cpu);
+
+/// A thread that does `work`. Throws Error where the system gives no further one.
+std::thread startThread(std::function<void()> work);
 
 /// The calling thread gives way to all others that want to run.
 void giveWay();
