@@ -1,7 +1,7 @@
 #include "apps/console/guard.h"
 
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 
 #include <openssl/crypto.h>
 #include <openssl/rand.h>
@@ -208,10 +208,10 @@ void Refusals::note(const std::string& remote, const std::string& method, const 
   std::error_code none;
   if (std::filesystem::file_size(file_, none) > kLongest && !none)
     std::filesystem::rename(file_, file_.string() + ".1", none);
-  if (os::createPrivate(file_)) return;  // a full disk, say: nothing is noted
-  std::ofstream(file_, std::ios::app)
-      << runtime::utcNow() << ' ' << word(remote) << ' ' << word(method) << ' '
-      << word(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
+  std::ostringstream line;
+  line << runtime::utcNow() << ' ' << word(remote) << ' ' << word(method) << ' '
+       << word(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
+  os::appendPrivate(file_, line.str());  // on a full disk, say, nothing is noted
 }
 
 }  // namespace palpa::console
