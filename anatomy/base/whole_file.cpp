@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -230,6 +231,16 @@ void WrittenTogether::note(const fs::path& made) {
   if (!noted().notes) return;
   std::error_code none;
   noted().made.push_back(fs::absolute(made, none));
+}
+
+std::vector<fs::path> entriesOf(const fs::path& folder) {
+  std::vector<fs::path> all;
+  std::error_code none;
+  for (auto entry = fs::directory_iterator(folder, none); entry != fs::directory_iterator();
+       entry.increment(none))
+    all.push_back(entry->path());
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 std::optional<std::string> readWhole(const fs::path& file) {

@@ -69,6 +69,9 @@ class WrittenTogether {
   bool first_;
 };
 
+/// What lies in a folder itself, in the order of names; nothing where it cannot be read.
+std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
+
 /// The bytes of a file; nullopt where it cannot be read or is a folder. How large a file may be is
 /// the caller's question.
 std::optional<std::string> readWhole(const std::filesystem::path& file);

@@ -166,6 +166,16 @@ TEST(ReadWhole, GivesEveryByteAndNothingWhereThereIsNoFile) {
   EXPECT_EQ(readWhole(folder), std::nullopt);
 }
 
+TEST(EntriesOf, AFoldersEntriesInOrder_NothingBelowThem) {
+  const fs::path folder = test::freshFolder("base", "entries");
+  for (const char* name : {"b", "a", ".c"}) std::ofstream(folder / name) << name;
+  fs::create_directories(folder / "d/e");
+  EXPECT_EQ(entriesOf(folder),
+            (std::vector<fs::path>{folder / ".c", folder / "a", folder / "b", folder / "d"}));
+  EXPECT_TRUE(entriesOf(folder / "a").empty()) << "no folder";
+  EXPECT_TRUE(entriesOf(folder / "none").empty());
+}
+
 TEST(WholeFile, ANewFileIsReadByNoMoreThanTheOldOne) {
   using std::filesystem::perms;
   const auto folder = test::freshFolder("base", "whole_file_readers");
