@@ -259,14 +259,8 @@ std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
 }  // namespace
 
 ReportHead PalpationWorld::head(const SessionOptions& options) const {
-  ReportHead head;
-  head.title = task.title;
-  head.trainee = whoPerformed(options);
-  head.user_id = options.trainee;
-  head.simulated = simulated(options);
-  head.assessed = options.assess;
+  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
   head.force_note = forceNote();
-  head.taxonomy = taxonomyFacts(task.taxonomy);
   head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
   for (report::Fact& fact : lumpFacts(task.library)) head.station.push_back(std::move(fact));

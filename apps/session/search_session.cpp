@@ -206,15 +206,9 @@ std::vector<report::Fact> pullFacts(const SearchWorld& world) {
 }  // namespace
 
 ReportHead SearchWorld::head(const SessionOptions& options) const {
-  ReportHead head;
-  head.title = task.title;
-  head.trainee = whoPerformed(options);
-  head.user_id = options.trainee;
-  head.simulated = simulated(options);
-  head.assessed = options.assess;
+  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
   head.unit_note = format("1 U = %.3g mm in the hand: the floor is %.1f mm wide",
                           1e3 * rendering.unit, 1e3 * rendering.unit * task.spec.side);
-  head.taxonomy = taxonomyFacts(task.taxonomy);
   head.station = stationFactsOf(options, station);
   head.station.push_back({"Stiffness of the floor",
                           format("%.0f N/m, degraded %.0f N/m", rendering.real.stiffness,

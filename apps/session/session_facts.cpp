@@ -185,6 +185,18 @@ json jsonOf(const ReportHead& head) {
           {"columns", columns}};
 }
 
+ReportHead headOf(const SessionOptions& options, const std::string& title,
+                  const station::Taxonomy& taxonomy, bool simulated) {
+  ReportHead head;
+  head.title = title;
+  head.trainee = whoPerformed(options);
+  head.user_id = options.trainee;
+  head.simulated = simulated;
+  head.assessed = options.assess;
+  head.taxonomy = taxonomyFacts(taxonomy);
+  return head;
+}
+
 ReportHead headIn(const record::SessionInfo& info, const std::string& file) {
   ReportHead head;
   try {

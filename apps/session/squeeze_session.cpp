@@ -163,14 +163,8 @@ SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
 }
 
 ReportHead SqueezeWorld::head(const SessionOptions& options) const {
-  ReportHead head;
-  head.title = task.title;
-  head.trainee = whoPerformed(options);
-  head.user_id = options.trainee;
-  head.simulated = true;
-  head.assessed = options.assess;
+  ReportHead head = headOf(options, task.title, task.taxonomy, true);
   head.too_hard_N = task.too_hard;
-  head.taxonomy = taxonomyFacts(task.taxonomy);
   head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
   return head;
