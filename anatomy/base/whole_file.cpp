@@ -298,6 +298,12 @@ FileTrouble fileTrouble(int error) {
           "Check the folder and its disk, or choose another place"};
 }
 
+std::string whyUnread(const std::error_code& error) {
+  if (error == std::errc::no_such_file_or_directory) return "there is no such file";
+  if (error == std::errc::permission_denied) return "you may not read it";
+  return fileTrouble(error.value()).why;
+}
+
 void failFile(const std::string& what, const std::filesystem::path& file, int error,
               const std::string& instead) {
   const FileTrouble trouble = fileTrouble(error);

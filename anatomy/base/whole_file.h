@@ -85,6 +85,9 @@ struct FileTrouble {
 /// `error`: errno, or the value of an error_code of the system.
 FileTrouble fileTrouble(int error);
 
+/// Why a file could not be read, in words: a clause, "there is no such file".
+std::string whyUnread(const std::error_code& error);
+
 /// Throws Error: `what` and why, of this file or folder. `instead`: the way out that the caller
 /// knows ("Choose another folder with --out"); it is added to what helps in any case.
 [[noreturn]] void failFile(const std::string& what, const std::filesystem::path& file, int error,

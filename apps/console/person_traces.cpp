@@ -42,7 +42,8 @@ bool removeWhole(const fs::path& path, PersonTraces* traces) {
   std::error_code problem;
   fs::remove_all(path, problem);
   if (problem)
-    traces->troubles.push_back(path.string() + ": cannot be removed (" + problem.message() +
+    traces->troubles.push_back(path.string() + ": cannot be removed (" +
+                               fileTrouble(problem.value()).why +
                                "). Make its folder writable, or delete it by hand");
   return !problem;
 }

@@ -44,7 +44,7 @@ bool removeFile(const fs::path& file, std::vector<std::string>* troubles) {
   std::error_code problem;
   if (fs::remove(file, problem)) return true;
   if (problem)
-    troubles->push_back(file.string() + ": cannot be removed (" + problem.message() +
+    troubles->push_back(file.string() + ": cannot be removed (" + fileTrouble(problem.value()).why +
                         "). Make its folder writable");
   return false;
 }

@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::os {
 namespace {
@@ -26,7 +26,11 @@ constexpr int kMemoryPools = 2;
 constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
 constexpr std::size_t kPage = 4096;         // the smallest there is
 
-std::string because(int error) { return std::string(" (") + std::strerror(error) + ")"; }
+std::string because(int error) {
+  if (error == EPERM) return " (this user may not)";
+  if (error == EINVAL) return " (this computer has none)";
+  return " (" + fileTrouble(error).why + ")";
+}
 
 bool mayLockWithoutBound() {
   rlimit limit{};

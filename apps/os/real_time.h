@@ -25,8 +25,8 @@ class MemoryLock {
 
 /// Prepares the calling thread for steps in time: SCHED_FIFO where allowed, `cpu` where one is
 /// named (-1: any), 256 KiB of its stack touched beforehand. Says what it got, and why not what it
-/// did not get: "SCHED_FIFO", "normal priority: SCHED_FIFO refused (Operation not permitted); CPU 3
-/// refused (Invalid argument)".
+/// did not get: "SCHED_FIFO", "normal priority: SCHED_FIFO refused (this user may not); CPU 3
+/// refused (this computer has none)".
 std::string becomeRealTime(int cpu);
 
 /// A thread that does `work`. Throws Error where the system gives no further one.
