@@ -132,24 +132,10 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
 }
 
 record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
-  record::SessionInfo info;
-  info.uuid = options.uuid;
-  info.started_utc = runtime::utcNow();
-  info.software = std::string("palpa ") + PALPA_VERSION;
-  info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},
-                                   {"bench_seed", options.benchSeed()},
-                                   {"operator", nameOf(options.who)},
-                                   {"simulated", simulated(options)},
-                                   {"trainee", options.trainee},
-                                   {"force_feedback", options.force_feedback},
-                                   {"guidance", options.guidance},
-                                   {"see_through", options.see_through},
-                                   {"augment", options.augment},
-                                   {"virtual_time", options.fast},
-                                   {"assessed", options.assess},
-                                   {"report", jsonOf(head(options))}},
-                                  options);
+  record::SessionInfo info = infoOf(options, head(options),
+                                    {{"guidance", options.guidance},
+                                     {"see_through", options.see_through},
+                                     {"augment", options.augment}});
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);

@@ -126,22 +126,8 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
 }
 
 record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
-  record::SessionInfo info;
-  info.uuid = options.uuid;
-  info.started_utc = runtime::utcNow();
-  info.software = std::string("palpa ") + PALPA_VERSION;
-  info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},
-                                   {"bench_seed", options.benchSeed()},
-                                   {"operator", nameOf(options.who)},
-                                   {"simulated", simulated(options)},
-                                   {"mode", options.mode},
-                                   {"trainee", options.trainee},
-                                   {"force_feedback", options.force_feedback},
-                                   {"virtual_time", options.fast},
-                                   {"assessed", options.assess},
-                                   {"report", jsonOf(head(options))}},
-                                  options);
+  record::SessionInfo info =
+      infoOf(options, head(options), nlohmann::json::object({{"mode", options.mode}}));
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);
