@@ -5,7 +5,6 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "apps/os/local_socket.h"
 #include "apps/os/real_time.h"
 #include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
@@ -37,22 +36,19 @@ struct Port::Peer {
       runtime::ServingClock::now();  ///< when it took something off, or nothing waited
 };
 
-Port::Port(std::string path, const LiveLog& log, Received received,
+Port::Port(const std::string& path, const LiveLog& log, Received received,
            std::chrono::milliseconds patience)
-    : path_(std::move(path)),
-      log_(log),
+    : log_(log),
       received_(std::move(received)),
       patience_(patience),
-      listener_(os::listenAt(path_, "Give a folder that can be written to, or leave out --live")) {
+      listener_(path, "Give a folder that can be written to, or leave out --live") {
   ar::loadCodecs();
-  thread_ = std::thread([this] { run(); });
+  thread_ = os::startThread([this] { run(); });
 }
 
 Port::~Port() {
   ending_.store(true);
   thread_.join();
-  os::closeSocket(listener_);
-  os::removeSocket(path_);
 }
 
 void Port::offer(scene::Image picture) {
@@ -85,14 +81,14 @@ void Port::run() {
 }
 
 void Port::waitForPeers(int timeout_ms) {
-  std::vector<os::WatchedSocket> all{os::WatchedSocket{listener_}};
+  std::vector<os::WatchedSocket> all{os::WatchedSocket{listener_.socket()}};
   for (const auto& peer : peers_) all.push_back({peer->socket, !peer->waiting.empty()});
   os::waitForAny(all, timeout_ms);
 }
 
 void Port::accept() {
   for (int callers = 0, socket;
-       callers < kCallersAtOnce && (socket = os::acceptOne(listener_)) >= 0; ++callers) {
+       callers < kCallersAtOnce && (socket = os::acceptOne(listener_.socket())) >= 0; ++callers) {
     if (peers_.size() >= kMostPeers || !os::sameUser(socket)) {
       os::closeSocket(socket);
     } else {

@@ -11,6 +11,7 @@
 
 #include "apps/live/live_sink.h"
 #include "apps/live/wire.h"
+#include "apps/os/local_socket.h"
 #include "scene/scene_state.h"
 
 namespace palpa::live {
@@ -23,10 +24,10 @@ class Port {
  public:
   /// Called on the port's thread with the body of a command.
   using Received = std::function<void(const std::string& command)>;
-  /// Throws Error where there can be no socket at `path`.
+  /// Throws Error where there can be no socket at `path`, or no thread.
   /// `patience`: whoever has taken nothing off for so long while something waits is left; he may
   /// come again.
-  Port(std::string path, const LiveLog& log, Received received,
+  Port(const std::string& path, const LiveLog& log, Received received,
        std::chrono::milliseconds patience = std::chrono::seconds(10));
   ~Port();  ///< tells what is left, for at most half a second
 
@@ -50,11 +51,10 @@ class Port {
   void leaveLost();
   bool allSent() const;
 
-  const std::string path_;
   const LiveLog& log_;
   const Received received_;
   const std::chrono::milliseconds patience_;
-  int listener_ = -1;
+  const os::LocalListener listener_;
   std::vector<std::unique_ptr<Peer>> peers_;
   std::atomic<bool> watched_{false}, has_picture_{false}, ending_{false};
   std::mutex picture_mutex_;
