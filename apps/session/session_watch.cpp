@@ -31,6 +31,7 @@ std::string partInWords(const std::string& activity) {
       {"geometry", "the geometry"},
       {"stop key", "the space bar's thread"},
       {"progress", "the terminal"},
+      {"console", "the line to the console"},
       {"force sensor", "the force sensor"},
       {"force guard", "the line to the force guard"}};
   const auto found = kWords.find(activity);
@@ -58,7 +59,8 @@ std::int64_t SessionWatch::endSession(const char* why, std::int64_t now_ns) {
 
 void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   next_look_ns_ = now_ns + kStuckPeriod;
-  const runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
+  runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
+  if (console_ && console_->silentFor(std::chrono::nanoseconds(kStuck))) stuck.push_back("console");
   const auto tell = [this](const runtime::Executive::Stuck& of,
                            const runtime::Executive::Stuck& not_in, const char* what) {
     for (const std::string& name : of)
@@ -67,7 +69,7 @@ void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   };
   tell(stuck, stuck_, " does not answer; all other parts go on");
   tell(stuck_, stuck, " answers again");
-  stuck_ = stuck;
+  stuck_ = std::move(stuck);
 }
 
 std::int64_t StopKeyWatch::step(std::int64_t now_ns) {

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <ctime>
 
+#include "hung_calls.h"
+
 /// Answers of the system and of libusb with one thing wrong: PALPA_FAULT says which. Everything
 /// else goes through to whom it was meant for.
 namespace {
@@ -142,36 +144,42 @@ int access(const char* path, int mode) noexcept {
 // A drive that fails while a program writes, or that is full then.
 ssize_t write(int file, const void* bytes, size_t count) {
   static auto* real = original<ssize_t(int, const void*, size_t)>("write");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, true);
   return error ? refused<ssize_t>(error) : real(file, bytes, count);
 }
 
 ssize_t writev(int file, const iovec* parts, int count) {
   static auto* real = original<ssize_t(int, const iovec*, int)>("writev");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, true);
   return error ? refused<ssize_t>(error) : real(file, parts, count);
 }
 
 ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
   static auto* real = original<ssize_t(int, const void*, size_t, off_t)>("pwrite");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, true);
   return error ? refused<ssize_t>(error) : real(file, bytes, count, at);
 }
 
 ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) {
   static auto* real = original<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, true);
   return error ? refused<ssize_t>(error) : real(file, bytes, count, at);
 }
 
 int fsync(int file) {
   static auto* real = original<int(int)>("fsync");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, false);
   return error ? refused<int>(error) : real(file);
 }
 
 int fdatasync(int file) {
   static auto* real = original<int(int)>("fdatasync");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, false);
   return error ? refused<int>(error) : real(file);
 }
