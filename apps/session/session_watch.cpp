@@ -62,13 +62,15 @@ void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
   if (console_ && console_->silentFor(std::chrono::nanoseconds(kStuck))) stuck.push_back("console");
   const auto tell = [this](const runtime::Executive::Stuck& of,
-                           const runtime::Executive::Stuck& not_in, const char* what) {
+                           const runtime::Executive::Stuck& not_in, const char* what,
+                           double in_report) {
     for (const std::string& name : of)
       if (std::find(not_in.begin(), not_in.end(), name) == not_in.end())
-        channels_.signals_to_task.push({trial::UserCommand::remark, partInWords(name) + what});
+        channels_.signals_to_task.push(
+            {trial::UserCommand::remark, partInWords(name) + what, in_report});
   };
-  tell(stuck, stuck_, " does not answer; all other parts go on");
-  tell(stuck_, stuck, " answers again");
+  tell(stuck, stuck_, " does not answer; all other parts go on", 1);
+  tell(stuck_, stuck, " answers again", 0);
   stuck_ = std::move(stuck);
 }
 

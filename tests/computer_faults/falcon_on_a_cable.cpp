@@ -13,9 +13,9 @@ namespace {
 
 FalconWorld* mapped(const char* file) {
   const int fd = ::open(file, O_RDWR | O_CLOEXEC);
-  void* bytes = fd < 0 ? MAP_FAILED
-                       : ::mmap(nullptr, sizeof(FalconWorld), PROT_READ | PROT_WRITE, MAP_SHARED,
-                                fd, 0);
+  void* bytes =
+      fd < 0 ? MAP_FAILED
+             : ::mmap(nullptr, sizeof(FalconWorld), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
   if (bytes == MAP_FAILED) std::abort();
   ::close(fd);
   return static_cast<FalconWorld*>(bytes);
