@@ -38,6 +38,21 @@ std::string partInWords(const std::string& activity) {
   return found == kWords.end() ? activity : found->second;
 }
 
+namespace {
+
+/// A device's motors keep what they had, whatever is asked of them.
+std::string silenceInWords(const std::string& activity) {
+  return partInWords(activity) + " does not answer" +
+         (activity == "falcon" ? " and may keep its last force: switch its power off" : "") +
+         "; all other parts go on";
+}
+
+std::string returnInWords(const std::string& activity) {
+  return partInWords(activity) + " answers again";
+}
+
+}  // namespace
+
 std::int64_t SessionWatch::step(std::int64_t now_ns) {
   if (note_.noted()) return endSession("Interrupted", now_ns);
   if (window_lost_.load()) return endSession("The window is gone", now_ns);
@@ -62,15 +77,14 @@ void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
   if (console_ && console_->silentFor(std::chrono::nanoseconds(kStuck))) stuck.push_back("console");
   const auto tell = [this](const runtime::Executive::Stuck& of,
-                           const runtime::Executive::Stuck& not_in, const char* what,
-                           double in_report) {
+                           const runtime::Executive::Stuck& not_in,
+                           std::string (*words)(const std::string&), double in_report) {
     for (const std::string& name : of)
       if (std::find(not_in.begin(), not_in.end(), name) == not_in.end())
-        channels_.signals_to_task.push(
-            {trial::UserCommand::remark, partInWords(name) + what, in_report});
+        channels_.signals_to_task.push({trial::UserCommand::remark, words(name), in_report});
   };
-  tell(stuck, stuck_, " does not answer; all other parts go on", 1);
-  tell(stuck_, stuck, " answers again", 0);
+  tell(stuck, stuck_, silenceInWords, 1);
+  tell(stuck_, stuck, returnInWords, 0);
   stuck_ = std::move(stuck);
 }
 
