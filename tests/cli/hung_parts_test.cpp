@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Each, HungPartSession, testing::ValuesIn(parts()),
 
 /// A server that takes connections and never says a word: the trainee is looked up, and the trials
 /// are delivered, in vain.
-TEST(HungPartRecords, AServerThatNeverAnswersHoldsUpNeitherBeginningNorEnd) {
+TEST(HungRecords, AServerThatNeverAnswersHoldsUpNeitherBeginningNorEnd) {
   const os::TcpListener silent("127.0.0.1", 0);
   const Folder here;
   const std::string url =

@@ -60,7 +60,7 @@ const Folder& recorded() {
   static const bool done = [] {
     json station = shippedStation("virtual_bench.json");
     station["camera"]["rate_Hz"] = 5;
-    station["twin"]["camera_faults"] = {{{"kind", "hidden"}, {"from_s", 0}, {"to_s", 8}}};
+    station["twin"]["camera_faults"] = {{{"kind", "hidden"}, {"from_s", 0}, {"to_s", 5}}};
     here.file("bench.json", station.dump());
     here.file("lens.yml", benchLens());
     return palpa(
@@ -177,7 +177,7 @@ Environment HungSession::environment() const {
   if (!device_) return all;
   all.emplace_back("PALPA_FALCON", folder / "falcon");
   all.emplace_back("XR_RUNTIME_JSON", PALPA_TEST_XR_JSON);
-  all.emplace_back("PALPA_TEST_XR", "eyes=32x32,32x32;rate=20");
+  all.emplace_back("PALPA_TEST_XR", "eyes=32x32,32x32;rate=2");
   return all;
 }
 
