@@ -177,8 +177,9 @@ void Port::Line::run() {
     if (!ending_.load()) continue;
     const auto now = runtime::ServingClock::now();
     if (leave == runtime::ServingClock::time_point{}) leave = now + kFarewell;
-    if (allSent() || now > leave) return;
+    if (allSent() || now > leave) break;
   }
+  peers_.clear();
 }
 
 void Port::Line::waitForPeers(int timeout_ms) {

@@ -146,12 +146,10 @@ TEST_P(Stations, OfTheSameNewTraineeOneIsAdded) {
 
 /// One that takes a request and says nothing is given up; one that takes its time over a long
 /// answer is not.
-TEST_P(Stations, AServerThatSaysNothingIsGivenUp) {
-  if (!onServer()) GTEST_SKIP() << "a file is read by this process itself";
-  const auto server_asked = openPostgres(url, Access::write, std::chrono::seconds(2));
+TEST_P(ServerStations, OneThatSaysNothingIsGivenUp) {
+  const auto asked = openPostgres(url, Access::write, std::chrono::seconds(2));
   EXPECT_EQ(
-      server_asked->query("SELECT repeat('x', 20000), pg_sleep(0.3) FROM generate_series(1, 10)")
-          .size(),
+      asked->query("SELECT repeat('x', 20000), pg_sleep(0.3) FROM generate_series(1, 10)").size(),
       10u);
   const auto expectGivenUp = [](auto ask) {
     try {
@@ -161,8 +159,8 @@ TEST_P(Stations, AServerThatSaysNothingIsGivenUp) {
       EXPECT_NE(std::string(e.what()).find("does not answer"), std::string::npos) << e.what();
     }
   };
-  expectGivenUp([&] { server_asked->query("SELECT pg_sleep(3600)"); });
-  expectGivenUp([&] { server_asked->query("SELECT 1"); });
+  expectGivenUp([&] { asked->query("SELECT pg_sleep(3600)"); });
+  expectGivenUp([&] { asked->query("SELECT 1"); });
   const auto writing = openPostgres(url, Access::write, std::chrono::seconds(2));
   expectGivenUp([&] {
     SqlTransaction transaction(*writing);
