@@ -39,7 +39,7 @@ std::vector<HungPart> parts() {
   return all;
 }
 
-std::string nameOf(const HungPart& part) {
+std::string testNameOf(const HungPart& part) {
   return part.calls + (part.how_long == Hangs::for_ever ? "_for_ever" : "_for_a_while");
 }
 
@@ -49,8 +49,8 @@ class HungPartSession : public testing::TestWithParam<HungPart> {
   static void SetUpTestSuite() {
     const testing::TestSuite& suite = *testing::UnitTest::GetInstance()->current_test_suite();
     for (const HungPart& part : parts()) {
-      if (!isToRun(suite, nameOf(part))) continue;
-      Begun& begun = sessions()[nameOf(part)];
+      if (!isToRun(suite, testNameOf(part))) continue;
+      Begun& begun = sessions()[testNameOf(part)];
       begun.session = std::make_unique<HungSession>(part);
       begun.done =
           std::async(std::launch::async, [session = begun.session.get()] { session->run(); });
@@ -59,7 +59,7 @@ class HungPartSession : public testing::TestWithParam<HungPart> {
   static void TearDownTestSuite() { sessions().clear(); }
 
   static const HungSession& ran() {
-    Begun& begun = sessions().at(nameOf(GetParam()));
+    Begun& begun = sessions().at(testNameOf(GetParam()));
     begun.done.wait();
     return *begun.session;
   }
@@ -160,7 +160,7 @@ TEST_P(HungPartSession, HoldsUpNeitherTheStopNorTheOthersNorTheEnd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, HungPartSession, testing::ValuesIn(parts()),
-                         [](const auto& one) { return nameOf(one.param); });
+                         [](const auto& one) { return testNameOf(one.param); });
 
 /// A server that takes connections and never says a word: the trainee is looked up, and the trials
 /// are delivered, in vain.

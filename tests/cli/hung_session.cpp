@@ -21,7 +21,6 @@ namespace palpa::cli_test {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 const runtime::SteadyClock& testClock() {
   static const runtime::SteadyClock clock;
@@ -49,16 +48,16 @@ std::string frame(char kind, const std::string& body = "") {
   return bytes + body;
 }
 
-json shippedStation(const std::string& name) {
-  return json::parse(contentOf(fs::path(PALPA_SOURCE_DIR) / "assets/stations" / name));
+nlohmann::json stationAsShipped(const std::string& name) {
+  return nlohmann::json::parse(contentOf(fs::path(PALPA_SOURCE_DIR) / "assets/stations" / name));
 }
 
 /// A quick session: its film, and its hand, which waits until the camera sees: on a busy computer
 /// the ready check of whoever replays it takes long.
-const Folder& recorded() {
+const Folder& quickRecording() {
   static const Folder here;
   static const bool done = [] {
-    json station = shippedStation("virtual_bench.json");
+    nlohmann::json station = stationAsShipped("virtual_bench.json");
     station["camera"]["rate_Hz"] = 5;
     station["twin"]["camera_faults"] = {
         {{"kind", "hidden"}, {"from_s", 0}, {"to_s", test::counted(6, 20)}}};
@@ -74,8 +73,8 @@ const Folder& recorded() {
   return here;
 }
 
-json sensorAt(std::uint16_t port) {
-  const json nowhere = {0, 0, 0};
+nlohmann::json sensorAt(std::uint16_t port) {
+  const nlohmann::json nowhere = {0, 0, 0};
   return {{"driver", "net_ft"},
           {"name", "six axes"},
           {"address", "127.0.0.1"},
@@ -89,17 +88,17 @@ json sensorAt(std::uint16_t port) {
           {"bias", {{"force_N", nowhere}, {"torque_Nm", nowhere}}}};
 }
 
-Vec3 vectorOf(const json& list) { return unpack(list.get<Packed3>()); }
+Vec3 vectorOf(const nlohmann::json& list) { return unpack(list.get<Packed3>()); }
 
-Mat3 rotationOf(const json& pose) {
+Mat3 rotationOf(const nlohmann::json& pose) {
   const Vec3 turn = vectorOf(pose["rotation_vector_deg"]) * std::numbers::pi / 180;
   return Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
 }
 
 /// The Falcon's encoders with the needle's tip so deep below the planned entry, along the needle.
 std::array<std::int16_t, 3> encodersAt(double depth_mm) {
-  const json station = shippedStation("falcon.json");
-  const json &D = station["registration"]["X_WD"], &T = station["tool"]["X_ET"];
+  const nlohmann::json station = stationAsShipped("falcon.json");
+  const nlohmann::json &D = station["registration"]["X_WD"], &T = station["tool"]["X_ET"];
   const Mat3 R_WD = rotationOf(D);
   const Vec3 axis_W = R_WD * rotationOf(T) * Vec3::UnitZ();
   const Vec3 tip_W = vectorOf(station["patient"]["entry_mm"]) + depth_mm * axis_W;
@@ -142,11 +141,11 @@ HungSession::HungSession(HungPart hung) : part(std::move(hung)), device_(part.ca
 HungSession::~HungSession() = default;
 
 std::string HungSession::station(const std::string& shipped) const {
-  json station = shippedStation(shipped);
+  nlohmann::json station = stationAsShipped(shipped);
   station["camera"]["rate_Hz"] = 3;
   if (sensor_) {
     station["device"]["driver"] = "replay";
-    station["device"]["recording"] = (recorded() / "A/session.palpa").string();
+    station["device"]["recording"] = (quickRecording() / "A/session.palpa").string();
     station["force_sensor"] = sensorAt(sensor_->port());
   }
   return folder.file("station.json", station.dump());
@@ -168,8 +167,8 @@ std::vector<std::string> HungSession::arguments() {
   if (part.calls == "stream")
     add({"--igtl", std::to_string(os::TcpListener("127.0.0.1", 0).port())});
   if (part.calls == "film")
-    add({"--camera", recorded() / "A/camera.mjpeg", "--intrinsics", recorded() / "lens.yml",
-         "--board", "tags:6x4:0.030:0.0075"});
+    add({"--camera", quickRecording() / "A/camera.mjpeg", "--intrinsics",
+         quickRecording() / "lens.yml", "--board", "tags:6x4:0.030:0.0075"});
   return all;
 }
 
