@@ -60,7 +60,7 @@ const Folder& quickRecording() {
     nlohmann::json station = stationAsShipped("virtual_bench.json");
     station["camera"]["rate_Hz"] = 5;
     station["twin"]["camera_faults"] = {
-        {{"kind", "hidden"}, {"from_s", 0}, {"to_s", test::counted(6, 20)}}};
+        {{"kind", "hidden"}, {"from_s", 0}, {"to_s", test::counted(6, 13)}}};
     here.file("bench.json", station.dump());
     here.file("lens.yml", benchLens());
     return palpa(
