@@ -4,7 +4,7 @@
 set -euo pipefail
 results=${1:-$(dirname "$0")/../build/check/Testing/Temporary}
 awk '
-  $1 == "---" { exit }
-  { sub(/\..*/, "", $1); seconds[$1] += $3 }
+  / Test: / { name = $3; sub(/\..*/, "", name) }
+  /^Test time = / { seconds[name] += $4 }
   END { for (name in seconds) printf "%s %.0f\n", name, seconds[name] }
-' "$results/CTestCostData.txt" | sort -k2,2nr -k1,1
+' "$results/LastTest.log" | sort -k2,2nr -k1,1

@@ -1,3 +1,4 @@
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "anatomy/base/error.h"
 #include "scene/view/scene_view.h"
+#include "scene/window/x11_window.h"
 #include "tests/support/simple_patient.h"
 // X11's headers define macros with everyday names: after all others.
 #include <X11/Xatom.h>
@@ -153,27 +155,37 @@ TEST_F(Window, OffscreenInTheSameProcessStaysWithX11) {
   EXPECT_EQ(view.capture().width, 320);
 }
 
-/// What a window manager sends for the close button.
-void askToClose() {
-  ::Display* display = XOpenDisplay(nullptr);
-  ::Window root = DefaultRootWindow(display), parent = 0, *children = nullptr;
+/// The window, as another program finds it; 0: there is none.
+::Window found(::Display* display) {
+  ::Window root = DefaultRootWindow(display), parent = 0, *children = nullptr, of_title = 0;
   unsigned count = 0;
   XQueryTree(display, root, &root, &parent, &children, &count);
   for (unsigned i = 0; i < count; ++i) {
     char* title = nullptr;
     if (!XFetchName(display, children[i], &title)) continue;
-    if (std::string(title) == kTitle) {
-      XEvent event{};
-      event.xclient.type = ClientMessage;
-      event.xclient.window = children[i];
-      event.xclient.message_type = XInternAtom(display, "WM_PROTOCOLS", False);
-      event.xclient.format = 32;
-      event.xclient.data.l[0] = static_cast<long>(XInternAtom(display, "WM_DELETE_WINDOW", False));
-      XSendEvent(display, children[i], False, NoEventMask, &event);
-    }
+    if (std::string(title) == kTitle) of_title = children[i];
     XFree(title);
   }
   XFree(children);
+  return of_title;
+}
+
+/// What a window manager sends for the close button.
+void askToClose() {
+  ::Display* display = XOpenDisplay(nullptr);
+  XEvent event{};
+  event.xclient.type = ClientMessage;
+  event.xclient.window = found(display);
+  event.xclient.message_type = XInternAtom(display, "WM_PROTOCOLS", False);
+  event.xclient.format = 32;
+  event.xclient.data.l[0] = static_cast<long>(XInternAtom(display, "WM_DELETE_WINDOW", False));
+  XSendEvent(display, event.xclient.window, False, NoEventMask, &event);
+  XCloseDisplay(display);
+}
+
+void destroyWindow() {
+  ::Display* display = XOpenDisplay(nullptr);
+  XDestroyWindow(display, found(display));
   XCloseDisplay(display);
 }
 
@@ -185,6 +197,27 @@ TEST_F(Window, CloseButtonIsReportedAndTheSceneCanStillFinish) {
   EXPECT_TRUE(pollUntil(view, [](const ViewInput& i) { return i.closed; }).closed);
   view.show({});  // the program decides when to end
   EXPECT_EQ(view.capture().width, 640);
+}
+
+/// Last: no other test has a window afterwards.
+TEST_F(Window, OneThatIsGoneKeepsItsSizeAndTheSceneGoesOn) {
+  for (const char* asked : {"XGetGeometry", "XGetWindowAttributes"}) {
+    Dl_info from{};
+    ASSERT_NE(dladdr(dlsym(RTLD_DEFAULT, asked), &from), 0);
+    EXPECT_EQ(std::string(from.dli_fname).find("libX11"), std::string::npos)
+        << "VTK and Mesa ask Xlib for the size, and take what lies on their stack";
+  }
+  bool lost = false;
+  whenWindowIsLost([&] { lost = true; });
+  SceneView view(*context_, patient_, {640, 480, FixedViews::three, true});
+  view.show({});
+  destroyWindow();
+  for (int i = 0; i < 20; ++i) {
+    view.show({});
+    EXPECT_EQ(view.capture().width, 640);
+    EXPECT_EQ(view.capture().height, 480);
+  }
+  EXPECT_TRUE(lost);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <stdexcept>
 
@@ -82,6 +83,14 @@ json schemaOf(const std::string& kind) {
   return resolved(schema, schema);
 }
 
+bool matches(const std::string& text, const std::string& pattern) {
+  static std::map<std::string, std::regex> made;  // it takes longer than to match
+  const auto found = made.find(pattern);
+  return std::regex_match(
+      text, found != made.end() ? found->second
+                                : made.emplace(pattern, std::regex(pattern)).first->second);
+}
+
 std::vector<std::string> publishedKinds() {
   std::vector<std::string> kinds;
   for (const fs::directory_entry& entry : fs::directory_iterator(assetsFolder() / "schemas")) {
@@ -97,7 +106,7 @@ std::vector<std::string> publishedKinds() {
 std::vector<std::string> kindsOf(const std::string& asset) {
   std::vector<std::string> kinds;
   for (const Place& place : kPlaces)
-    if (std::regex_match(asset, std::regex(place.pattern))) kinds.emplace_back(place.kind);
+    if (matches(asset, place.pattern)) kinds.emplace_back(place.kind);
   return kinds;
 }
 

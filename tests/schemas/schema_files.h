@@ -10,6 +10,7 @@ namespace palpa::schemas {
 
 std::filesystem::path assetsFolder();
 nlohmann::json jsonOf(const std::filesystem::path& file);
+bool matches(const std::string& text, const std::string& pattern);  ///< the whole of it
 
 /// assets/schemas/<kind>.schema.json as it is written.
 nlohmann::json publishedSchema(const std::string& kind);

@@ -8,6 +8,7 @@
 #include "anatomy/patient/patient_file.h"
 #include "apps/os/file_access.h"
 #include "apps/station/assets.h"
+#include "tests/support/counts.h"
 #include "tests/support/setting.h"
 
 namespace palpa::session {
@@ -51,7 +52,9 @@ TEST_F(KeptPatient, IsBuiltAnewWhereTheFileIsDamaged) {
   const std::string built = bytesOf(4);
   const std::filesystem::path file = files().at(0);
   const std::string whole = readWhole(file).value();
-  for (const std::size_t at : {std::size_t{3}, std::size_t{64}, whole.size() / 2}) {
+  const std::vector<std::size_t> places{64, whole.size() / 2, 3};
+  for (int i = 0; i < test::counted(2, 3); ++i) {
+    const std::size_t at = places.at(static_cast<std::size_t>(i));
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 1);
     if (at == 64) damaged.resize(at);
