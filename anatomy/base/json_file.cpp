@@ -24,7 +24,7 @@ std::string textOf(const std::filesystem::path& file) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   if (error)
-    throw UsageError("cannot be read (" + error.message() + ")", file.string(), "Check the name");
+    throw UsageError("cannot be read (" + whyUnread(error) + ")", file.string(), "Check the name");
   refuseLarge(size, file.string());
   std::optional<std::string> text = readWhole(file);
   if (!text) throw UsageError("cannot be read", file.string(), "Check its permissions");

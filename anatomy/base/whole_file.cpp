@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -232,6 +233,16 @@ void WrittenTogether::note(const fs::path& made) {
   noted().made.push_back(fs::absolute(made, none));
 }
 
+std::vector<fs::path> entriesOf(const fs::path& folder) {
+  std::vector<fs::path> all;
+  std::error_code none;
+  for (auto entry = fs::directory_iterator(folder, none); entry != fs::directory_iterator();
+       entry.increment(none))
+    all.push_back(entry->path());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 std::optional<std::string> readWhole(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return std::nullopt;
@@ -285,6 +296,12 @@ FileTrouble fileTrouble(int error) {
   if (known != troubles().end()) return known->second;
   return {"the system refuses it, error " + std::to_string(error),
           "Check the folder and its disk, or choose another place"};
+}
+
+std::string whyUnread(const std::error_code& error) {
+  if (error == std::errc::no_such_file_or_directory) return "there is no such file";
+  if (error == std::errc::permission_denied) return "you may not read it";
+  return fileTrouble(error.value()).why;
 }
 
 void failFile(const std::string& what, const std::filesystem::path& file, int error,

@@ -69,6 +69,9 @@ class WrittenTogether {
   bool first_;
 };
 
+/// What lies in a folder itself, in the order of names; nothing where it cannot be read.
+std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
+
 /// The bytes of a file; nullopt where it cannot be read or is a folder. How large a file may be is
 /// the caller's question.
 std::optional<std::string> readWhole(const std::filesystem::path& file);
@@ -81,6 +84,9 @@ struct FileTrouble {
 
 /// `error`: errno, or the value of an error_code of the system.
 FileTrouble fileTrouble(int error);
+
+/// Why a file could not be read, in words: a clause, "there is no such file".
+std::string whyUnread(const std::error_code& error);
 
 /// Throws Error: `what` and why, of this file or folder. `instead`: the way out that the caller
 /// knows ("Choose another folder with --out"); it is added to what helps in any case.

@@ -188,7 +188,8 @@ ImportMap readImportMap(const std::filesystem::path& file, const MapDefaults& de
   std::error_code failure;
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
   if (failure)
-    throw UsageError("cannot be read (" + failure.message() + ")", file.string(), "Check the name");
+    throw UsageError("cannot be read (" + whyUnread(failure) + ")", file.string(),
+                     "Check the name");
   if (size > (4u << 20)) throw UsageError("is larger than 4 MiB", file.string(), "Check the name");
   const std::optional<std::string> text = readWhole(file);
   if (!text) throw UsageError("cannot be read", file.string(), "Check its permissions");

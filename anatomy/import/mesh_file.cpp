@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "anatomy/base/bytes.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -15,7 +16,7 @@ constexpr std::uintmax_t kLargestFile = 1u << 30;  // 1 GiB
 std::string load(const std::filesystem::path& file) {
   std::error_code failure;
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
-  if (failure) refuseMesh("cannot be opened (" + failure.message() + ")", file.string());
+  if (failure) refuseMesh("cannot be opened (" + whyUnread(failure) + ")", file.string());
   if (size > kLargestFile) refuseMesh("is larger than 1 GiB", file.string());
   std::ifstream stream(file, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');

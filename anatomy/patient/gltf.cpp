@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "anatomy/patient/tinygltf_png.h"
 
 namespace palpa::anatomy {
@@ -21,7 +22,7 @@ constexpr int kDeepest = 32;                       // nesting of the JSON part; 
 std::string load(const std::string& file) {
   std::error_code failure;
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
-  if (failure) fail("the file cannot be opened (" + failure.message() + ")", file);
+  if (failure) fail("the file cannot be opened (" + whyUnread(failure) + ")", file);
   if (size > kLargestFile) fail("the file is larger than 1 GiB", file);
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -151,7 +152,7 @@ std::string loadVolume(const std::filesystem::path& file) {
   std::error_code failure;
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
   if (failure)
-    throw Error("cannot be opened (" + failure.message() + ")", file.string(), "Check the name");
+    throw Error("cannot be opened (" + whyUnread(failure) + ")", file.string(), "Check the name");
   if (size > kLargestVolumeFile)
     throw Error("is larger than 2 GiB", file.string(), "Export a part of it");
   std::ifstream stream(file, std::ios::binary);

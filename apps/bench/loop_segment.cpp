@@ -44,12 +44,8 @@ Onlookers::Onlookers(int pages)
     : path_(os::socketFolder() + "/bench-" + std::to_string(os::processNumber()) + ".sock"),
       port_(path_, log_, [](const std::string&) {}),
       link_(path_) {
-  for (int i = 0; i < pages; ++i) pages_.emplace_back([this] { look(); });
-}
-
-Onlookers::~Onlookers() {
-  ending_ = true;
-  for (std::thread& page : pages_) page.join();
+  for (int i = 0; i < pages; ++i)
+    pages_.emplace_back([this](const std::stop_token& ending) { look(ending); });
 }
 
 void Onlookers::show(scene::Image picture) {
@@ -60,10 +56,10 @@ void Onlookers::show(scene::Image picture) {
       1);
 }
 
-void Onlookers::look() {
+void Onlookers::look(const std::stop_token& ending) {
   os::giveWay();
   std::string page;
-  for (std::uint64_t last = 0; !ending_;) {
+  for (std::uint64_t last = 0; !ending.stop_requested();) {
     const console::SessionLink::Picture picture =
         link_.picture(last, std::chrono::milliseconds(200));
     if (!picture.jpeg) continue;
@@ -219,7 +215,7 @@ OurTimes runOurSegment(const LoopSurroundings& around, std::int64_t length_ns) {
 LoopTimes runBareSegment(const LoopSurroundings& around, std::int64_t length_ns) {
   const auto rig = std::make_unique<LoopRig>(around, length_ns, true);
   LoopTimes times;
-  std::thread bare([&] { times = runBareLoop(around.period_ns, length_ns, around.cpu); });
+  std::jthread bare([&] { times = runBareLoop(around.period_ns, length_ns, around.cpu); });
   rig->executive->run();
   bare.join();
   return times;

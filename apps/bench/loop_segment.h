@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -35,7 +36,6 @@ LoopTimes runBareLoop(std::int64_t period_ns, std::int64_t length_ns, int cpu);
 class Onlookers {
  public:
   explicit Onlookers(int pages);  ///< throws Error where there can be no local socket
-  ~Onlookers();
 
   /// On the scene's thread, once a frame.
   bool wantPicture() const { return port_.wantsPicture() && clock_.now() >= next_ns_; }
@@ -44,17 +44,16 @@ class Onlookers {
   int pictures() const { return pictures_.load(); }
 
  private:
-  void look();
+  void look(const std::stop_token& ending);
 
   live::LiveLog log_;
   const std::string path_;
   live::Port port_;
   console::SessionLink link_;
-  std::atomic<bool> ending_{false};
   std::atomic<int> pictures_{0};
   const runtime::SteadyClock clock_;  // goes on from segment to segment
   std::int64_t next_ns_ = 0;
-  std::vector<std::thread> pages_;
+  std::vector<std::jthread> pages_;  ///< told to end, and waited for, however few there are
 };
 
 class Onlookers;

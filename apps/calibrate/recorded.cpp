@@ -40,7 +40,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
 SampleTable::SampleTable(const std::filesystem::path& file) : name_(file.string()) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
-  if (error) throw Error("cannot be read (" + error.message() + ")", name_, "Check the name");
+  if (error) throw Error("cannot be read (" + whyUnread(error) + ")", name_, "Check the name");
   if (size > kLargestTable) throw Error("is larger than 64 MB", name_, "Record for a shorter time");
   std::ifstream stream(file);
   std::size_t number = 0;
@@ -133,7 +133,7 @@ json listIn(const std::filesystem::path& file) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   if (error)
-    throw Error("cannot be read (" + error.message() + ")", file.string(), "Check the name");
+    throw Error("cannot be read (" + whyUnread(error) + ")", file.string(), "Check the name");
   if (size > kLargestList)
     throw Error("is larger than 64 MB", file.string(), "Record for a shorter time");
   json list = parsedOrDiscarded(readWhole(file).value_or(""));

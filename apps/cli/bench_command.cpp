@@ -131,6 +131,9 @@ void addTracking(CLI::App& bench) {
 void addBench(CLI::App& program) {
   CLI::App* bench = program.add_subcommand("bench", "Measurements, one JSON object a line");
   bench->require_subcommand(1);
+  bench->footer(
+      "Examples:\n  palpa bench haptics > haptics.jsonl\n  palpa bench loop --rate 4000 --cpu 1\n  "
+      "palpa bench stop --presses 20");
   addAnatomy(*bench);
   addCalibration(*bench);
   addHaptics(*bench);

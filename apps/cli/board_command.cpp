@@ -38,6 +38,7 @@ void print(BoardOptions o) {
 void addBoard(CLI::App& program) {
   CLI::App* board = program.add_subcommand("board", "The board that the camera looks for");
   board->require_subcommand(1);
+  board->footer("Example:\n  palpa board print --out board.pdf");
   CLI::App* command = board->add_subcommand(
       "print", "A board to print at its true size, with bars to check the print");
   command->footer(

@@ -97,6 +97,9 @@ void addSubtaskCalibration(CLI::App& calibrate) {
 void addCalibrate(CLI::App& program) {
   CLI::App* calibrate = program.add_subcommand("calibrate", "Calibration routines");
   calibrate->require_subcommand(1);
+  calibrate->footer(
+      "Examples:\n  palpa calibrate all                         on the virtual bench\n  palpa "
+      "calibrate all --station my_station.json\n  palpa calibrate camera --help");
   addStationCalibrations(*calibrate);
   addSubtaskCalibration(*calibrate);
   addExpertCalibration(*calibrate);

@@ -197,6 +197,10 @@ void addImport(CLI::App& patient) {
 void addPatient(CLI::App& program) {
   CLI::App* patient = program.add_subcommand("patient", "Build a patient, or see what one holds");
   patient->require_subcommand(1);
+  patient->footer(
+      "Examples:\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb\n  palpa patient info "
+      "heavy.glb\n  palpa patient import --map assets/patients/bodyparts3d_hra.json DATA --out "
+      "p.glb");
   const auto o = std::make_shared<PatientOptions>();
   CLI::App* make =
       patient->add_subcommand("build", "Build a patient from the reference figures or a CT volume");

@@ -33,6 +33,7 @@ void solve(const SolveOptions& o) {
 void addPhantom(CLI::App& program) {
   CLI::App* phantom = program.add_subcommand("phantom", "Simulated silicone phantoms");
   phantom->require_subcommand(1);
+  phantom->footer("Example:\n  palpa phantom solve      the shipped mock-ups again");
   CLI::App* command = phantom->add_subcommand("solve",
                                               "The force that it takes to press the phantoms of a "
                                               "file, by finite elements (a few minutes each)");

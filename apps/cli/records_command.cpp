@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
@@ -262,6 +263,37 @@ void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   table->callback([o] { writeMetrics(*o); });
 }
 
+/// What the help of each command below shows.
+struct RecordsExample {
+  const char *command, *words;
+};
+constexpr RecordsExample kRecordsExamples[] = {
+    {"trainee", "trainee add --id T001 --group novice --consent"},
+    {"trainee add", "trainee add --id T001 --group novice --handedness left --consent"},
+    {"trainee change", "trainee change --id T001 --experience \"3rd year\" --research"},
+    {"trainee list", "trainee list --records ~/records.sqlite"},
+    {"show", "show --id T001"},
+    {"overdue", "overdue\n  palpa records overdue --delete --yes"},
+    {"delete", "delete --id T001 --yes"},
+    {"add", "add out/paracentesis-20260301-120000"},
+    {"deliver", "deliver"},
+    {"backup", "backup --out records-2026-03-01.sqlite"},
+    {"restore", "restore --from records-2026-03-01.sqlite --records ~/new.sqlite"},
+    {"migrate", "migrate --records ~/records.sqlite"},
+    {"export", "export --all --out data\n  palpa records export --id T001 --format json"},
+    {"xapi", "xapi --to https://lrs.example.org/xapi --all --user palpa"},
+    {"metrics", "metrics --out metrics.md"},
+};
+
+void showExamples(CLI::App* records) {
+  for (const RecordsExample& one : kRecordsExamples) {
+    CLI::App* command = records;
+    std::istringstream path(one.command);
+    for (std::string word; path >> word;) command = command->get_subcommand(word);
+    command->footer(std::string("Example:\n  palpa records ") + one.words);
+  }
+}
+
 }  // namespace
 
 void addRecords(CLI::App& program) {
@@ -278,6 +310,7 @@ void addRecords(CLI::App& program) {
   addTrainees(command, o);
   addStore(command, o);
   addData(command, o);
+  showExamples(command);
 }
 
 }  // namespace palpa::cli

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
@@ -79,31 +80,35 @@ Likeness needleScores(const std::string& file) {
   return worst;
 }
 
-Likeness palpationScores(const record::SessionReader& reader) {
+/// Of a task that is judged from its evidence alone: `again` gives what is said of a trial, and its
+/// score.
+template <class Trials, class Again>
+Likeness scoresAgain(const char* what, const Trials& trials, Again again) {
   Likeness worst = Likeness::same_bits;
-  for (const evidence::RecordedPalpation& trial : evidence::recordedPalpations(reader))
-    if (hasScore(trial.recorded))
-      worst = worse(worst, sayTrial("Trial", trial.recorded, trial.assessment.summary,
-                                    task_palpation::scoreJson(trial.assessment)));
+  for (const auto& trial : trials) {
+    if (!hasScore(trial.recorded)) continue;
+    const auto [summary, score] = again(trial);
+    worst = worse(worst, sayTrial(what, trial.recorded, summary, score));
+  }
   return worst;
+}
+
+Likeness palpationScores(const record::SessionReader& reader) {
+  return scoresAgain("Trial", evidence::recordedPalpations(reader), [](const auto& trial) {
+    return std::pair(trial.assessment.summary, task_palpation::scoreJson(trial.assessment));
+  });
 }
 
 Likeness squeezeScores(const record::SessionReader& reader) {
-  Likeness worst = Likeness::same_bits;
-  for (const evidence::RecordedSqueeze& trial : evidence::recordedSqueezes(reader))
-    if (hasScore(trial.recorded))
-      worst = worse(worst, sayTrial("Trial", trial.recorded, summaryOf(trial.again),
-                                    task_squeeze::scoreJson(trial.again)));
-  return worst;
+  return scoresAgain("Trial", evidence::recordedSqueezes(reader), [](const auto& trial) {
+    return std::pair(summaryOf(trial.again), task_squeeze::scoreJson(trial.again));
+  });
 }
 
 Likeness searchScores(const record::SessionReader& reader) {
-  Likeness worst = Likeness::same_bits;
-  for (const evidence::RecordedSearch& trial : evidence::recordedSearches(reader))
-    if (hasScore(trial.recorded))
-      worst = worse(worst, sayTrial("Episode", trial.recorded, summaryOf(trial.again),
-                                    task_search::scoreJson(trial.again)));
-  return worst;
+  return scoresAgain("Episode", evidence::recordedSearches(reader), [](const auto& trial) {
+    return std::pair(summaryOf(trial.again), task_search::scoreJson(trial.again));
+  });
 }
 
 Likeness scoresOf(const record::SessionReader& reader, const std::string& file) {

@@ -265,11 +265,14 @@ void addReport(CLI::App& program) {
       ->required()
       ->type_name("ID");
   addPageArguments(*trainee, *o);
+  trainee->footer("Example:\n  palpa report trainee --id T017 --out out/T017");
   trainee->callback([o] { reportTrainee(*o); });
   CLI::App* cohort = command->add_subcommand(
       "cohort", "A group: common errors, who needs attention, learning, reliability");
   cohort->add_option("--group", o->choice.group, "Only trainees of this group; default: all");
   addPageArguments(*cohort, *o);
+  cohort->footer(
+      "Example:\n  palpa report cohort --group novice --task paracentesis --out out/novices");
   cohort->callback([o] { reportCohort(*o); });
   addReportTrial(*command);
 }

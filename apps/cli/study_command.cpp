@@ -103,6 +103,8 @@ void addStudy(CLI::App& program) {
   const auto o = std::make_shared<study::StudyOptions>();
   CLI::App* status = study->add_subcommand(
       "status", "Who is enrolled, who is next, how far everybody is; never a condition");
+  status->footer(
+      "Example:\n  palpa study status --protocol assets/protocols/paracentesis_pilot.json");
   addProtocol(*status, *o);
   status->callback([o] { study::reportStudy(*o); });
   addStudyAnalyse(*study);

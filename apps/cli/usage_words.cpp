@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/cli/command_tree.h"
 #include "apps/cli/values.h"
 
@@ -230,15 +231,20 @@ constexpr const char* kNoMemory =
     "there is not enough memory for this. Close other programs, allow palpa more (ulimit -v), or "
     "give it something smaller";
 
-std::string refusedBySystem(const std::string& what, const std::error_code& code) {
+/// `file`: what it was about; empty: not known.
+std::string refusedBySystem(const std::string& file, const std::error_code& code, bool verbose) {
   if (code == std::errc::not_enough_memory) return kNoMemory;
   if (code == std::errc::resource_unavailable_try_again)
     return "the system allows no more threads or processes now. End other programs, or raise the "
            "limit (ulimit -u)";
   if (code == std::errc::too_many_files_open)
     return "the system allows no more open files. Raise the limit (ulimit -n)";
-  return (what.empty() ? std::string("the system refuses something") : what) + ": " +
-         code.message() + ". See to that, then try again";
+  const std::string words =
+      file.empty()
+          ? "the system refuses something (" + fileTrouble(code.value()).why +
+                "). See to that, then try again"
+          : file + ": cannot be used (" + whyUnread(code) + "). Check its name, and who may use it";
+  return verbose ? words + "; the system said: " + code.message() : words;
 }
 
 std::string unforeseen(const std::string& said, bool verbose) {
@@ -261,9 +267,9 @@ FailureWords failureWords(const std::exception_ptr& thrown, bool verbose) {
   } catch (const cv::Exception& e) {
     return {e.code == cv::Error::StsNoMem ? kNoMemory : unforeseen(e.what(), verbose), 1};
   } catch (const std::filesystem::filesystem_error& e) {
-    return {refusedBySystem(e.path1().string(), e.code()), 1};
+    return {refusedBySystem(e.path1().string(), e.code(), verbose), 1};
   } catch (const std::system_error& e) {
-    return {refusedBySystem("", e.code()), 1};
+    return {refusedBySystem("", e.code(), verbose), 1};
   } catch (const std::exception& e) {
     return {unforeseen(e.what(), verbose), 1};
   } catch (...) {

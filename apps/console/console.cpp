@@ -61,7 +61,8 @@ std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
 /// said.
 class Serving {
  public:
-  explicit Serving(WebServer& server) : server_(server), thread_([&server] { server.serve(); }) {}
+  explicit Serving(WebServer& server)
+      : server_(server), thread_(os::startThread([&server] { server.serve(); })) {}
   ~Serving() {
     server_.end();
     thread_.join();

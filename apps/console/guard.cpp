@@ -1,12 +1,13 @@
 #include "apps/console/guard.h"
 
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 
 #include <openssl/crypto.h>
 #include <openssl/rand.h>
 
 #include "anatomy/base/error.h"
+#include "apps/console/place.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 
@@ -79,7 +80,10 @@ const std::vector<std::pair<std::string, std::string>>& safeHeaders() {
 }
 
 bool isStopPath(const std::string& path) {
-  return path.starts_with("/api/sessions/") && path.ends_with("/stop");
+  constexpr std::string_view kBefore = "/api/sessions/", kAfter = "/stop";
+  return path.size() > kBefore.size() + kAfter.size() && path.starts_with(kBefore) &&
+         path.ends_with(kAfter) &&
+         isId(path.substr(kBefore.size(), path.size() - kBefore.size() - kAfter.size()));
 }
 
 Guard::Guard(std::string token)
@@ -89,7 +93,34 @@ bool Guard::entered(const std::string& cookie_header) const {
   return token_.empty() || same(valueOf(cookie_header), cookie_);
 }
 
+namespace {
+
+/// What everybody gets, whoever they are and wherever they come from.
+bool isPage(const GuardedRequest& asked) {
+  return asked.method == "GET" && (asked.path == "/" || asked.path.rfind("/static/", 0) == 0);
+}
+
+}  // namespace
+
 GuardVerdict Guard::judge(const GuardedRequest& asked) {
+  if (GuardVerdict verdict = judgeOrigin(asked); verdict.status != 200) return verdict;
+  if (asked.method == "POST") {
+    if (GuardVerdict verdict = judgePage(asked); verdict.status != 200) return verdict;
+    if (GuardVerdict verdict = judgeNumber(asked); verdict.status != 200) return verdict;
+  } else if (asked.method != "GET") {
+    return {405, "only GET and POST are understood"};
+  }
+  const bool open = isPage(asked) || asked.path == "/api/me" || asked.path == "/api/enter";
+  if (!open && !entered(asked.cookie)) return {401, "give the console's token first"};
+  return {};
+}
+
+bool Guard::mayStop(const GuardedRequest& asked) const {
+  return asked.method == "POST" && isStopPath(asked.path) && judgeOrigin(asked).status == 200 &&
+         judgePage(asked).status == 200 && entered(asked.cookie);
+}
+
+GuardVerdict Guard::judgeOrigin(const GuardedRequest& asked) const {
   if (std::find(hosts_.begin(), hosts_.end(), asked.host) == hosts_.end())
     return {421, "this console is not called \"" + asked.host.substr(0, 64) +
                      "\": use the address that it prints when it starts"};
@@ -98,26 +129,23 @@ GuardVerdict Guard::judge(const GuardedRequest& asked) {
                      return asked.origin == "http://" + host;
                    });
   if (!own) return {403, "requested by another site"};
-  const bool page =
-      asked.method == "GET" && (asked.path == "/" || asked.path.rfind("/static/", 0) == 0);
   if (!asked.fetch_site.empty() && asked.fetch_site != "same-origin" &&
-      !(asked.fetch_site == "none" && asked.method == "GET") && !page)
+      !(asked.fetch_site == "none" && asked.method == "GET") && !isPage(asked))
     return {403, "requested by another site"};
-  if (asked.method == "POST") {
-    if (GuardVerdict verdict = judgeWrite(asked); verdict.status != 200) return verdict;
-  } else if (asked.method != "GET") {
-    return {405, "only GET and POST are understood"};
-  }
-  const bool open = page || asked.path == "/api/me" || asked.path == "/api/enter";
-  if (!open && !entered(asked.cookie)) return {401, "give the console's token first"};
   return {};
 }
 
-GuardVerdict Guard::judgeWrite(const GuardedRequest& asked) {
+/// A write comes from a page of this console, and is one of its own.
+GuardVerdict Guard::judgePage(const GuardedRequest& asked) const {
   if (asked.content_type.rfind("application/json", 0) != 0) return {415, "a write must be JSON"};
   if (!same(asked.page_key, page_key_))
     return {403, "not requested by a page of this console: load the page again"};
   if (!isNumber(asked.write_id)) return {400, "a write needs a number of its own"};
+  return {};
+}
+
+/// And it comes once, and not with too many others.
+GuardVerdict Guard::judgeNumber(const GuardedRequest& asked) {
   const std::lock_guard lock(mutex_);
   if (!isStopPath(asked.path) && flooding(asked.remote))
     return {429, "too many writes: wait a few seconds"};
@@ -180,10 +208,10 @@ void Refusals::note(const std::string& remote, const std::string& method, const 
   std::error_code none;
   if (std::filesystem::file_size(file_, none) > kLongest && !none)
     std::filesystem::rename(file_, file_.string() + ".1", none);
-  if (os::createPrivate(file_)) return;  // a full disk, say: nothing is noted
-  std::ofstream(file_, std::ios::app)
-      << runtime::utcNow() << ' ' << word(remote) << ' ' << word(method) << ' '
-      << word(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
+  std::ostringstream line;
+  line << runtime::utcNow() << ' ' << word(remote) << ' ' << word(method) << ' '
+       << word(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
+  os::appendPrivate(file_, line.str());  // on a full disk, say, nothing is noted
 }
 
 }  // namespace palpa::console

@@ -42,6 +42,9 @@ class Guard {
   void answerTo(std::vector<std::string> hosts) { hosts_ = std::move(hosts); }
 
   GuardVerdict judge(const GuardedRequest& asked);
+  /// An emergency stop by somebody who may; whether its number was used is not looked at. Waits for
+  /// nothing, not even another thread.
+  bool mayStop(const GuardedRequest& asked) const;
   /// The cookie for whoever gave the right token; empty: wrong, or too many wrong ones came from
   /// there.
   std::string enter(const std::string& remote, const std::string& token);
@@ -50,7 +53,9 @@ class Guard {
 
  private:
   using Clock = runtime::ServingClock;
-  GuardVerdict judgeWrite(const GuardedRequest& asked);
+  GuardVerdict judgeOrigin(const GuardedRequest& asked) const;
+  GuardVerdict judgePage(const GuardedRequest& asked) const;
+  GuardVerdict judgeNumber(const GuardedRequest& asked);
   bool flooding(const std::string& remote);
 
   std::vector<std::string> hosts_;

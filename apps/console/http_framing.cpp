@@ -136,6 +136,34 @@ bool isNamed(std::string_view name, std::string_view wanted) {
   });
 }
 
+/// Of a header, wherever a head has it, without the blanks before them.
+std::vector<std::string_view> valuesIn(std::string_view head, std::string_view name) {
+  std::vector<std::string_view> values;
+  for (const std::string_view line : linesOf(head)) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos || !isNamed(line.substr(0, colon), name)) continue;
+    std::string_view value = line.substr(colon + 1);
+    while (!value.empty() && isBlank(value.front())) value.remove_prefix(1);
+    values.push_back(value);
+  }
+  return values;
+}
+
+template <class ValueOf>
+GuardedRequest asked(const std::string& remote, const std::string& method, const std::string& path,
+                     ValueOf valueOf) {
+  return {.remote = remote,
+          .method = method,
+          .path = path,
+          .host = valueOf("host"),
+          .origin = valueOf("origin"),
+          .fetch_site = valueOf("sec-fetch-site"),
+          .content_type = valueOf("content-type"),
+          .cookie = valueOf("cookie"),
+          .page_key = valueOf("x-palpa-page"),
+          .write_id = valueOf("x-palpa-write")};
+}
+
 const char* whyNoHeader(std::string_view line) {
   if (isBlank(line.front())) return "a header is folded over two lines";
   const std::size_t colon = line.find(':');
@@ -154,17 +182,26 @@ std::size_t endOfHead(std::string_view bytes) {
 }
 
 std::optional<std::size_t> bodyLengthIn(std::string_view head) {
-  std::optional<std::size_t> length = 0;
-  int stated = 0;
-  for (const std::string_view line : linesOf(head)) {
-    const std::size_t colon = line.find(':');
-    if (colon == std::string_view::npos || !isNamed(line.substr(0, colon), "content-length"))
-      continue;
-    std::string_view value = line.substr(colon + 1);
-    while (!value.empty() && isBlank(value.front())) value.remove_prefix(1);
-    length = ++stated == 1 ? lengthIn(std::string(value)) : std::nullopt;
-  }
-  return length;
+  const std::vector<std::string_view> stated = valuesIn(head, "content-length");
+  if (stated.empty()) return 0;
+  return stated.size() == 1 ? lengthIn(std::string(stated.front())) : std::nullopt;
+}
+
+GuardedRequest askedIn(std::string_view head, const std::string& remote) {
+  const std::string_view line = head.substr(0, head.find(kLineEnd));
+  const std::size_t method = std::min(line.find(' '), line.size()),
+                    target = std::min(method + 1, line.size());
+  return asked(remote, std::string(line.substr(0, method)),
+               std::string(line.substr(target, line.find(' ', target) - target)),
+               [head](std::string_view name) {
+                 const std::vector<std::string_view> all = valuesIn(head, name);
+                 return all.empty() ? std::string() : std::string(all.front());
+               });
+}
+
+GuardedRequest askedOf(const httplib::Request& r) {
+  return asked(r.remote_addr, r.method, r.path,
+               [&r](const char* name) { return r.get_header_value(name); });
 }
 
 GuardVerdict judgeHead(std::string_view head) {

@@ -57,6 +57,10 @@ std::size_t endOfHead(std::string_view bytes);
 /// The length of the body that a head states; 0 where it states none, nothing where it is no number
 /// or stands there twice.
 std::optional<std::size_t> bodyLengthIn(std::string_view head);
+/// What the guard judges of a head as it came, before anything is made of it; and of a request that
+/// was read. Where a header stands twice, its first.
+GuardedRequest askedIn(std::string_view head, const std::string& remote);
+GuardedRequest askedOf(const httplib::Request& request);
 /// A head as it came, before anything is made of it: a line that is folded, a blank before the
 /// colon, a line end of one character and a control character are read differently by different
 /// programs, so that one request could hide in another. All are refused.

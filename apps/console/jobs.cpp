@@ -8,6 +8,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/text_forms.h"
 #include "apps/os/file_access.h"
+#include "apps/os/real_time.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -47,7 +48,7 @@ nlohmann::json fractionOf(const std::vector<std::string>& lines) {
 Jobs::Jobs(const ConsolePlace& place) : place_(place) {
   os::makeFolders(place_.jobs());  // the first job meets what is wrong
   clearOld(place_.jobs());
-  thread_ = std::thread([this] { run(); });
+  thread_ = os::startThread([this] { run(); });
 }
 
 Jobs::~Jobs() {

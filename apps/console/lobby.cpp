@@ -21,20 +21,13 @@ constexpr char kFull[] =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\nRetry-After: "
     "5\r\n\r\n";
 
-/// The whole of a stop is here, its few bytes of body too: nobody will have to wait for it.
-bool isWholeStop(const std::string& said) {
-  const std::size_t head = endOfHead(said);
-  if (head == std::string::npos || !isEmergencyStop(said)) return false;
-  const std::optional<std::size_t> body = bodyLengthIn(std::string_view(said).substr(0, head));
-  return body && *body <= kLongestStop && said.size() >= head + *body;
-}
-
-/// A stop whose body is on its way.
-bool isStopToCome(const std::string& said) {
-  const std::size_t head = endOfHead(said);
-  if (head == std::string::npos || !isEmergencyStop(said)) return false;
-  const std::optional<std::size_t> body = bodyLengthIn(std::string_view(said).substr(0, head));
-  return body && *body <= kLongestStop && said.size() < head + *body;
+/// By its first line; whether it may is the guard's.
+bool isEmergencyStop(const std::string& said) {
+  constexpr std::string_view kMethod = "POST ", kVersion = " HTTP/1.1";
+  const std::string_view line = std::string_view(said).substr(0, said.find('\r'));
+  if (!line.starts_with(kMethod) || !line.ends_with(kVersion)) return false;
+  return isStopPath(
+      std::string(line.substr(kMethod.size(), line.size() - kMethod.size() - kVersion.size())));
 }
 
 }  // namespace
@@ -53,14 +46,6 @@ Caller::~Caller() {
 void turnAway(const Caller& caller) {
   if (caller.answered == 0 || !caller.said.empty())
     os::sendSome(caller.socket, kFull, sizeof kFull - 1);
-}
-
-bool isEmergencyStop(const std::string& said) {
-  constexpr std::string_view kMethod = "POST ", kVersion = " HTTP/1.1";
-  const std::string_view line = std::string_view(said).substr(0, said.find('\r'));
-  if (!line.starts_with(kMethod) || !line.ends_with(kVersion)) return false;
-  return isStopPath(
-      std::string(line.substr(kMethod.size(), line.size() - kMethod.size() - kVersion.size())));
 }
 
 void Lobby::run(int listener) {
@@ -156,14 +141,26 @@ bool Lobby::hear(std::unique_ptr<Caller>& caller) {
     if (count > 0 && caller->said.empty()) caller->since = Clock::now();
     caller->said.append(bytes, count);
   }
-  if (isWholeStop(caller->said)) return ways_.stop(std::move(caller)), false;
-  const bool whole = endOfHead(caller->said) != std::string::npos && !isStopToCome(caller->said);
+  const std::optional<std::size_t> stop = stopLengthOf(*caller);
+  if (stop && caller->said.size() >= *stop) return ways_.stop(std::move(caller)), false;
+  const bool whole = !stop && endOfHead(caller->said) != std::string::npos;
   if (whole || caller->said.size() >= kLongestHead || (left && !caller->said.empty()))
     return ways_.request(std::move(caller)), false;
   if (left) return false;
   if (!isOver(*caller)) return true;
   if (!caller->said.empty()) ways_.slow(caller->remote);
   return false;
+}
+
+/// How long a stop is that may, its few bytes of body too: nobody will have to wait for it. Nothing
+/// where it is none, or its head is not all here.
+std::optional<std::size_t> Lobby::stopLengthOf(const Caller& caller) const {
+  const std::size_t end = endOfHead(caller.said);
+  if (end == std::string::npos || !isEmergencyStop(caller.said)) return std::nullopt;
+  const std::string_view head = std::string_view(caller.said).substr(0, end);
+  const std::optional<std::size_t> body = bodyLengthIn(head);
+  if (!body || *body > kLongestStop || !ways_.may_stop(head, caller.remote)) return std::nullopt;
+  return end + *body;
 }
 
 bool Lobby::isOver(const Caller& caller) const {

@@ -4,7 +4,9 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/os/socket.h"
@@ -29,9 +31,6 @@ struct Caller {
 /// What has no further place is told so.
 void turnAway(const Caller& caller);
 
-/// A request for an emergency stop, judged by its first line alone.
-bool isEmergencyStop(const std::string& said);
-
 /// Where connections wait until the head of a request is complete: one thread for all of them, so
 /// that whoever is silent or slow keeps no thread from others. At most kMost wait, kMostOfOne of
 /// one address; where more come, the one that has waited longest makes room (of the same address
@@ -42,9 +41,12 @@ class Lobby {
   static constexpr std::size_t kMost = 96, kMostOfOne = 24;
   struct Ways {
     std::function<void(std::unique_ptr<Caller>)> request;  ///< its head is here, or as good as
-    std::function<void(std::unique_ptr<Caller>)> stop;     ///< an emergency stop, complete
-    std::function<void(const std::string& remote)> slow;   ///< began a request, and did not end it
-    std::function<void()> away;                            ///< one had to make room
+    /// Whether a whole head may stop a session: else it goes the way of all requests, and is
+    /// refused there. Waits for nothing.
+    std::function<bool(std::string_view head, const std::string& remote)> may_stop;
+    std::function<void(std::unique_ptr<Caller>)> stop;    ///< an emergency stop that may, complete
+    std::function<void(const std::string& remote)> slow;  ///< began a request, and did not end it
+    std::function<void()> away;                           ///< one had to make room
   };
   explicit Lobby(Ways ways) : ways_(std::move(ways)) {}
 
@@ -63,6 +65,7 @@ class Lobby {
   void makeRoom();
   void hearAll();
   bool hear(std::unique_ptr<Caller>& caller);
+  std::optional<std::size_t> stopLengthOf(const Caller& caller) const;
   bool isOver(const Caller& caller) const;
   bool crowded() const { return waiting_.size() > kMost / 2; }
 

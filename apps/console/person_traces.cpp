@@ -1,6 +1,5 @@
 #include "apps/console/person_traces.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -19,16 +18,6 @@ ConsolePlace placeAt(const fs::path& home) {
   ConsolePlace place;
   place.home = home;
   return place;
-}
-
-std::vector<fs::path> entriesOf(const fs::path& folder) {
-  std::vector<fs::path> all;
-  std::error_code none;
-  for (auto entry = fs::directory_iterator(folder, none); entry != fs::directory_iterator();
-       entry.increment(none))
-    all.push_back(entry->path());
-  std::sort(all.begin(), all.end());
-  return all;
 }
 
 bool isOfTrainee(const fs::path& session, const std::string& trainee) {
@@ -53,7 +42,8 @@ bool removeWhole(const fs::path& path, PersonTraces* traces) {
   std::error_code problem;
   fs::remove_all(path, problem);
   if (problem)
-    traces->troubles.push_back(path.string() + ": cannot be removed (" + problem.message() +
+    traces->troubles.push_back(path.string() + ": cannot be removed (" +
+                               fileTrouble(problem.value()).why +
                                "). Make its folder writable, or delete it by hand");
   return !problem;
 }

@@ -1,10 +1,8 @@
 #include "apps/console/request_threads.h"
 
 #include <exception>
-#include <system_error>
 #include <utility>
 
-#include "anatomy/base/error.h"
 #include "apps/os/real_time.h"
 
 namespace palpa::console {
@@ -13,21 +11,20 @@ RequestThreads::RequestThreads(Answer answer, Answer stop)
     : answer_(std::move(answer)), stop_(std::move(stop)) {
   try {
     start();
-  } catch (const std::system_error&) {
+  } catch (...) {
     end();
-    throw Error("gives no further threads", "this computer",
-                "End other programs, or raise the limit (ulimit -u)");
+    throw;
   }
 }
 
 void RequestThreads::start() {
   threads_.reserve(kThreads + 1);
-  threads_.emplace_back([this] { work(stops_, stop_); });
+  threads_.push_back(os::startThread([this] { work(stops_, stop_); }));
   for (int i = 0; i < kThreads; ++i)
-    threads_.emplace_back([this] {
+    threads_.push_back(os::startThread([this] {
       os::giveWay();
       work(requests_, answer_);
-    });
+    }));
 }
 
 void RequestThreads::end() {

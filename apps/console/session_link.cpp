@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::chrono::seconds kWatched{3};
 constexpr std::chrono::milliseconds kTryAgain{100};
+constexpr std::ptrdiff_t kLetGo = SessionLink::kMostKept / 10;  // of the oldest entries, at once
 constexpr int kLook_ms = 50, kTakes_ms = 1000, kConfirmed_ms = 300;
 
 bool sendAll(int socket, const std::string& bytes) {
@@ -36,7 +37,7 @@ bool sendAll(int socket, const std::string& bytes) {
 }  // namespace
 
 SessionLink::SessionLink(std::string socket) : path_(std::move(socket)) {
-  thread_ = std::thread([this] { run(); });
+  thread_ = os::startThread([this] { run(); });
 }
 
 SessionLink::~SessionLink() {
@@ -112,24 +113,35 @@ bool SessionLink::receive(int socket, LinkReader& reader) {
 void SessionLink::take(const std::string& entry) {
   if (passed_ == 0 && entry != hello_) {
     hello_ = entry;
-    begun_ = entries_.size();
+    begun_ = end();
   }
-  if (begun_ + passed_ >= entries_.size()) entries_.push_back(entry);
+  if (begun_ + passed_ >= end()) keep(entry);
   ++passed_;
+}
+
+void SessionLink::keep(const std::string& entry) {
+  entries_.push_back(entry);
+  if (entries_.size() <= kMostKept) return;
+  entries_.erase(entries_.begin(), entries_.begin() + kLetGo);
+  first_ += kLetGo;
 }
 
 bool SessionLink::watched() const { return runtime::ServingClock::now() - asked_ < kWatched; }
 
 SessionLink::News SessionLink::wait(std::size_t from, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, patience, [&] {
-    return entries_.size() > from || over_ || (caughtUp() && from > entries_.size());
-  });
+  changed_.wait_for(lock, patience,
+                    [&] { return end() > from || over_ || (caughtUp() && from > end()); });
   News news;
   news.over = over_;
-  news.from = caughtUp() && from > entries_.size() ? 0 : from;
-  for (std::size_t i = news.from; i < entries_.size() && news.entries.size() < kMostAtOnce; ++i)
-    news.entries.push_back(entries_[i]);
+  news.from = caughtUp() && from > end() ? 0 : from;
+  if (news.from < first_) {
+    news.entries = {hello_, R"({"kind":"earlier","count":)" + std::to_string(first_) + "}"};
+    news.from = first_ - news.entries.size();
+  }
+  for (std::size_t i = news.from + news.entries.size();
+       i < end() && news.entries.size() < kMostAtOnce; ++i)
+    news.entries.push_back(entries_[i - first_]);
   return news;
 }
 
@@ -165,7 +177,7 @@ SessionLink::Stopped SessionLink::stop() {
 void SessionLink::close(const std::string& last) {
   const std::lock_guard lock(mutex_);
   if (over_) return;
-  entries_.push_back(last);
+  keep(last);
   over_ = true;
   changed_.notify_all();
 }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -15,19 +16,23 @@ namespace palpa::console {
 
 /// The console's end of a running session's socket: what the session has told, its newest picture,
 /// and a way to ask for something. Connects anew where the connection is lost; the session tells
-/// its log from the beginning then, and what is known already is passed over. Any thread.
+/// its log from the beginning then, and what is known already is passed over. The newest entries
+/// are kept, however long the session is. Any thread.
 class SessionLink {
  public:
   explicit SessionLink(std::string socket);
   ~SessionLink();
 
   struct News {
-    /// Number of the first of them: what was asked for, or 0 where the log is shorter than that
+    /// Number of the first of them: what was asked for, or 0 where the log is shorter than that.
+    /// Where it is not kept any more, all that is kept follows on two entries in place of the older
+    /// ones: the session's first, and {"kind": "earlier", "count"}.
     std::size_t from = 0;
     std::vector<std::string> entries;  ///< at most kMostAtOnce
     bool over = false;                 ///< the session told its last
   };
   static constexpr std::size_t kMostAtOnce = 1024;
+  static constexpr std::size_t kMostKept = 20'000;  ///< half an hour, and a few MB
   /// Entries from number `from`; waits for the first of them, at most `patience`. A number beyond
   /// the log's end, once all of it is here, is another log's: it is told from its beginning.
   News wait(std::size_t from, std::chrono::milliseconds patience);
@@ -54,13 +59,16 @@ class SessionLink {
   void speak(int socket);
   bool receive(int socket, class LinkReader& reader);
   void take(const std::string& entry);
+  void keep(const std::string& entry);
+  std::size_t end() const { return first_ + entries_.size(); }
   bool watched() const;
   bool caughtUp() const { return over_ || passed_ >= known_; }
 
   const std::string path_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<std::string> entries_;
+  std::deque<std::string> entries_;
+  std::size_t first_ = 0;  ///< number of the oldest that is kept
   /// Where the present session's log begins in ours; how many of it came on this connection
   std::size_t begun_ = 0, passed_ = 0;
   std::size_t known_ = SIZE_MAX;  ///< how many there were when it began

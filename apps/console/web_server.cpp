@@ -76,38 +76,32 @@ void linger(int socket) {
   }
 }
 
-GuardedRequest askedOf(const httplib::Request& r) {
-  return {r.remote_addr,
-          r.method,
-          r.path,
-          r.get_header_value("Host"),
-          r.get_header_value("Origin"),
-          r.get_header_value("Sec-Fetch-Site"),
-          r.get_header_value("Content-Type"),
-          r.get_header_value("Cookie"),
-          r.get_header_value("X-Palpa-Page"),
-          r.get_header_value("X-Palpa-Write")};
-}
-
 }  // namespace
 
 WebServer::WebServer(Guard& guard, Refusals& refusals)
     : guard_(guard),
       refusals_(refusals),
-      lobby_({[this](std::unique_ptr<Caller> caller) {
-                if (threads_.take(caller)) return;
-                turnAway(*caller);
-                countAway();
-              },
-              [this](std::unique_ptr<Caller> caller) {
-                if (threads_.takeStop(caller)) return;
-                turnAway(*caller);
-                countAway();
-              },
-              [this](const std::string& remote) {
-                noteLater(remote, "-", "-", 408, "a request was too slow or too long");
-              },
-              [this] { countAway(); }}),
+      lobby_({.request =
+                  [this](std::unique_ptr<Caller> caller) {
+                    if (threads_.take(caller)) return;
+                    turnAway(*caller);
+                    countAway();
+                  },
+              .may_stop =
+                  [this](std::string_view head, const std::string& remote) {
+                    return judgeHead(head).status == 200 && guard_.mayStop(askedIn(head, remote));
+                  },
+              .stop =
+                  [this](std::unique_ptr<Caller> caller) {
+                    if (threads_.takeStop(caller)) return;
+                    turnAway(*caller);
+                    countAway();
+                  },
+              .slow =
+                  [this](const std::string& remote) {
+                    noteLater(remote, "-", "-", 408, "a request was too slow or too long");
+                  },
+              .away = [this] { countAway(); }}),
       threads_([this](std::unique_ptr<Caller> caller) { answer(std::move(caller)); },
                [this](std::unique_ptr<Caller> caller) { answerStop(std::move(caller)); }) {
   set_payload_max_length(kLongestBody);

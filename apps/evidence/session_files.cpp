@@ -39,23 +39,12 @@ bool namesTrainee(const fs::path& file, const std::string& trainee) {
   return text && !trainee.empty() && record::mentions(*text, trainee, true);
 }
 
-/// What lies in a folder itself; nothing where it cannot be read.
-std::vector<fs::path> filesIn(const fs::path& folder) {
-  std::vector<fs::path> all;
-  std::error_code none;
-  for (auto entry = fs::directory_iterator(folder, none); entry != fs::directory_iterator();
-       entry.increment(none))
-    all.push_back(entry->path());
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
 /// True: it was there, and is gone.
 bool removeFile(const fs::path& file, std::vector<std::string>* troubles) {
   std::error_code problem;
   if (fs::remove(file, problem)) return true;
   if (problem)
-    troubles->push_back(file.string() + ": cannot be removed (" + problem.message() +
+    troubles->push_back(file.string() + ": cannot be removed (" + fileTrouble(problem.value()).why +
                         "). Make its folder writable");
   return false;
 }
@@ -74,7 +63,7 @@ void removeEvidence(const fs::path& evidence, SessionRemoval* removal) {
 /// The expert's session, shown before a trainee's first trial: all of it belongs to this one.
 void removeDemonstration(const fs::path& folder, SessionRemoval* removal) {
   removeEvidence(folder / kEvidenceName, removal);
-  for (const fs::path& file : filesIn(folder))
+  for (const fs::path& file : entriesOf(folder))
     if (isSessionsOwn(file.filename().string()))
       removal->files += removeFile(file, &removal->troubles) ? 1 : 0;
   removeIfEmpty(folder, &removal->troubles);
@@ -82,7 +71,7 @@ void removeDemonstration(const fs::path& folder, SessionRemoval* removal) {
 
 void removeBeside(const fs::path& folder, const EvidenceOwner& owner, bool owned,
                   SessionRemoval* removal) {
-  for (const fs::path& file : filesIn(folder)) {
+  for (const fs::path& file : entriesOf(folder)) {
     const std::string name = file.filename().string();
     std::error_code none;
     if (owned && name == "demonstration" && fs::is_directory(fs::symlink_status(file, none)))
@@ -94,7 +83,7 @@ void removeBeside(const fs::path& folder, const EvidenceOwner& owner, bool owned
 }
 
 bool hasTextOf(const fs::path& folder, const std::string& trainee) {
-  const std::vector<fs::path> files = filesIn(folder);
+  const std::vector<fs::path> files = entriesOf(folder);
   return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
     return isOneOf(kTexts, file.filename().string()) && namesTrainee(file, trainee);
   });
@@ -102,7 +91,7 @@ bool hasTextOf(const fs::path& folder, const std::string& trainee) {
 
 /// A block of a study lies in the trainee's own folder, TRAINEE/BLOCK.
 void removeFolders(const fs::path& folder, const std::string& trainee, SessionRemoval* removal) {
-  if (removal->troubles.empty()) removal->kept = filesIn(folder);
+  if (removal->troubles.empty()) removal->kept = entriesOf(folder);
   removeIfEmpty(folder, &removal->troubles);
   if (!trainee.empty() && folder.parent_path().filename() == trainee)
     removeIfEmpty(folder.parent_path(), &removal->troubles);
@@ -149,7 +138,7 @@ std::vector<fs::path> removePracticePages(const fs::path& folder, const std::str
                                           std::vector<std::string>* troubles) {
   std::vector<fs::path> removed;
   std::error_code none;
-  for (const fs::path& place : filesIn(folder)) {
+  for (const fs::path& place : entriesOf(folder)) {
     if (!fs::is_directory(fs::symlink_status(place, none))) continue;
     for (const std::string_view page : kPages) {
       const fs::path file = place / page;

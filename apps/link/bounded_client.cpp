@@ -6,6 +6,7 @@
 
 #include <openssl/ssl.h>
 
+#include "apps/os/real_time.h"
 #include "apps/os/socket.h"
 
 namespace palpa::link {
@@ -142,7 +143,7 @@ void WatchedConnection::drop() {
 
 ExchangeWatch::ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole)
     : connection_(connection), until_(runtime::ServingClock::now() + whole) {
-  thread_ = std::thread([this] { watch(); });
+  thread_ = os::startThread([this] { watch(); });
 }
 
 bool ExchangeWatch::end() {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "apps/live/wire.h"
-#include "apps/os/local_socket.h"
 #include "apps/os/real_time.h"
 #include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
@@ -30,12 +29,14 @@ constexpr std::chrono::milliseconds kFarewell{500}, kHung{2000};
 /// the port's owner's.
 class Port::Line {
  public:
-  Line(const std::string& path, const LiveLog& log, Received received,
-       std::chrono::milliseconds patience)
+  Line(int listener, const LiveLog& log, Received received, std::chrono::milliseconds patience)
       : patience_(patience),
-        listener_(os::listenAt(path, "Give a folder that can be written to, or leave out --live")),
+        listener_(os::sharedSocket(listener)),
         log_(&log),
-        received_(std::move(received)) {}
+        received_(std::move(received)) {
+    if (listener_ < 0)
+      throw Error("has no descriptor left", "this process", "Raise the limit (ulimit -n)");
+  }
   ~Line() { os::closeSocket(listener_); }
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
@@ -94,14 +95,17 @@ struct Port::Line::Peer {
       runtime::ServingClock::now();  ///< when it took something off, or nothing waited
 };
 
-Port::Port(std::string path, const LiveLog& log, Received received,
+Port::Port(const std::string& path, const LiveLog& log, Received received,
            std::chrono::milliseconds patience)
-    : path_(std::move(path)),
-      line_(std::make_shared<Line>(path_, log, std::move(received), patience)) {
+    : listener_(path, "Give a folder that can be written to, or leave out --live"),
+      line_(std::make_shared<Line>(listener_.socket(), log, std::move(received), patience)) {
   ar::loadCodecs();
-  std::packaged_task<void()> serving([line = line_] { line->run(); });
-  over_ = serving.get_future();
-  thread_ = std::thread(std::move(serving));
+  const auto over = std::make_shared<std::promise<void>>();
+  over_ = over->get_future();
+  thread_ = os::startThread([line = line_, over] {
+    line->run();
+    over->set_value();
+  });
 }
 
 Port::~Port() { end(); }
@@ -116,7 +120,6 @@ bool Port::end() {
     line_->leaveOwner();
     thread_.detach();
   }
-  os::removeSocket(path_);
   return over;
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "apps/live/live_sink.h"
+#include "apps/os/local_socket.h"
 #include "scene/scene_state.h"
 
 namespace palpa::live {
@@ -21,10 +22,10 @@ class Port {
  public:
   /// Called on the port's thread with the body of a command.
   using Received = std::function<void(const std::string& command)>;
-  /// Throws Error where there can be no socket at `path`.
+  /// Throws Error where there can be no socket at `path`, or no thread.
   /// `patience`: whoever has taken nothing off for so long while something waits is left; he may
   /// come again.
-  Port(std::string path, const LiveLog& log, Received received,
+  Port(const std::string& path, const LiveLog& log, Received received,
        std::chrono::milliseconds patience = std::chrono::seconds(10));
   ~Port();  ///< as end()
   Port(const Port&) = delete;
@@ -41,7 +42,7 @@ class Port {
 
  private:
   class Line;
-  const std::string path_;
+  const os::LocalListener listener_;
   const std::shared_ptr<Line> line_;  ///< its thread's as well
   std::future<void> over_;
   std::thread thread_;

@@ -1,10 +1,9 @@
 #include "apps/live/stop_port.h"
 
-#include <filesystem>
 #include <utility>
 
 #include "apps/live/wire.h"
-#include "apps/os/local_socket.h"
+#include "apps/os/real_time.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::live {
@@ -26,24 +25,20 @@ struct StopPort::Presser {
   FrameDecoder decoder;
 };
 
-StopPort::StopPort(std::string path, std::function<void()> pressed)
-    : path_(std::move(path)),
-      pressed_(std::move(pressed)),
-      listener_(os::listenAt(path_, "Give a folder that can be written to, or leave out --live")) {
-  thread_ = std::thread([this] { run(); });
+StopPort::StopPort(const std::string& path, std::function<void()> pressed)
+    : pressed_(std::move(pressed)),
+      listener_(path, "Give a folder that can be written to, or leave out --live") {
+  thread_ = os::startThread([this] { run(); });
 }
 
 StopPort::~StopPort() {
   ending_.wake();
   thread_.join();
-  os::closeSocket(listener_);
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
 }
 
 void StopPort::run() {
   for (;;) {
-    std::vector<os::WatchedSocket> all{{ending_.descriptor()}, {listener_}};
+    std::vector<os::WatchedSocket> all{{ending_.descriptor()}, {listener_.socket()}};
     for (const auto& presser : pressers_) all.push_back({presser->socket});
     os::waitForAny(all, kForever_ms);
     letIn();
@@ -53,8 +48,8 @@ void StopPort::run() {
 }
 
 void StopPort::letIn() {
-  if (!os::ready(listener_, os::Wait::to_read, 0)) return;
-  const int socket = os::acceptOne(listener_);
+  if (!os::ready(listener_.socket(), os::Wait::to_read, 0)) return;
+  const int socket = os::acceptOne(listener_.socket());
   if (socket < 0) return runtime::rest(kNoDescriptor);
   if (!os::sameUser(socket)) return os::closeSocket(socket);
   if (pressers_.size() >= kMostPressers) pressers_.erase(pressers_.begin());

@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "apps/os/local_socket.h"
 #include "apps/os/socket.h"
 
 namespace palpa::live {
@@ -16,8 +17,8 @@ namespace palpa::live {
 class StopPort {
  public:
   /// `pressed`: called on this port's thread for each stop, before it is confirmed; it waits for
-  /// nothing. Throws Error where there can be no socket at `path`.
-  StopPort(std::string path, std::function<void()> pressed);
+  /// nothing. Throws Error where there can be no socket at `path`, or no thread.
+  StopPort(const std::string& path, std::function<void()> pressed);
   ~StopPort();
   StopPort(const StopPort&) = delete;
   StopPort& operator=(const StopPort&) = delete;
@@ -28,9 +29,8 @@ class StopPort {
   void letIn();
   bool hear(Presser& presser);
 
-  const std::string path_;
   const std::function<void()> pressed_;
-  const int listener_;
+  const os::LocalListener listener_;
   os::WakeUp ending_;
   std::vector<std::unique_ptr<Presser>> pressers_;
   std::thread thread_;

@@ -69,7 +69,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
 ProcessId spawn(Spawning& how, const std::vector<std::string>& arguments,
                 const std::filesystem::path& log) {
   posix_spawn_file_actions_addopen(&how.files, STDOUT_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_APPEND, 0600);
+                                   O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0600);
   posix_spawn_file_actions_adddup2(&how.files, STDOUT_FILENO, STDERR_FILENO);
   posix_spawn_file_actions_addclosefrom_np(&how.files, kFirstOfOurs);
   sigset_t none;

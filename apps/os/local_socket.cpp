@@ -73,6 +73,11 @@ void removeSocket(const std::string& path) {
     ::unlink(path.c_str());
 }
 
+LocalListener::~LocalListener() {
+  ::close(socket_);
+  removeSocket(path_);
+}
+
 int listenAt(const std::string& path, const std::string& advice) {
   const sockaddr_un address = addressOf(path);
   const Place place = whatIsAt(path, address);
@@ -84,13 +89,13 @@ int listenAt(const std::string& path, const std::string& advice) {
   if (place == Place::dead_socket) ::unlink(path.c_str());
   const int socket = unixSocket();
   const mode_t mask = ::umask(0177);
-  const bool good =
-      socket >= 0 &&
-      ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
-      ::listen(socket, kBacklog) == 0;
+  const bool bound = socket >= 0 && ::bind(socket, reinterpret_cast<const sockaddr*>(&address),
+                                           sizeof address) == 0;
+  const bool listens = bound && ::listen(socket, kBacklog) == 0;
   const int error = errno;
   ::umask(mask);
-  if (good) return socket;
+  if (listens) return socket;
+  if (bound) ::unlink(path.c_str());
   if (socket >= 0) ::close(socket);
   failFile("cannot be made", "local socket " + path, error, advice);
 }

@@ -10,7 +10,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::os {
 namespace {
@@ -22,7 +26,11 @@ constexpr int kMemoryPools = 2;
 constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
 constexpr std::size_t kPage = 4096;         // the smallest there is
 
-std::string because(int error) { return std::string(" (") + std::strerror(error) + ")"; }
+std::string because(int error) {
+  if (error == EPERM) return " (this user may not)";
+  if (error == EINVAL) return " (this computer has none)";
+  return " (" + fileTrouble(error).why + ")";
+}
 
 bool mayLockWithoutBound() {
   rlimit limit{};
@@ -75,6 +83,15 @@ std::string becomeRealTime(int cpu) {
   std::string words = askForFifo();
   if (cpu >= 0) words += "; " + askForCpu(cpu);
   return words;
+}
+
+std::thread startThread(std::function<void()> work) {
+  try {
+    return std::thread(std::move(work));
+  } catch (const std::system_error&) {
+    throw Error("gives no further threads", "this computer",
+                "End other programs, or raise the limit (ulimit -u)");
+  }
 }
 
 void shareMemoryPools() { mallopt(M_ARENA_MAX, kMemoryPools); }

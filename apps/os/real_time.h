@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <thread>
 
 namespace palpa::os {
 
@@ -23,9 +25,12 @@ class MemoryLock {
 
 /// Prepares the calling thread for steps in time: SCHED_FIFO where allowed, `cpu` where one is
 /// named (-1: any), 256 KiB of its stack touched beforehand. Says what it got, and why not what it
-/// did not get: "SCHED_FIFO", "normal priority: SCHED_FIFO refused (Operation not permitted); CPU 3
-/// refused (Invalid argument)".
+/// did not get: "SCHED_FIFO", "normal priority: SCHED_FIFO refused (this user may not); CPU 3
+/// refused (this computer has none)".
 std::string becomeRealTime(int cpu);
+
+/// A thread that does `work`. Throws Error where the system gives no further one.
+std::thread startThread(std::function<void()> work);
 
 /// The calling thread gives way to all others that want to run.
 void giveWay();

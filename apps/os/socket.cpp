@@ -11,10 +11,10 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::os {
 namespace {
@@ -122,7 +122,7 @@ int sharedSocket(int socket) { return ::fcntl(socket, F_DUPFD_CLOEXEC, 0); }
 
 WakeUp::WakeUp() : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (descriptor_ < 0)
-    throw Error(std::string("gives no further file descriptor (") + std::strerror(errno) + ")",
+    throw Error("gives no further file descriptor (" + fileTrouble(errno).why + ")",
                 "this computer", "End other programs, or raise the limit (ulimit -n)");
 }
 

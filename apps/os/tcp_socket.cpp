@@ -6,10 +6,10 @@
 #include <sys/socket.h>
 
 #include <cerrno>
-#include <cstring>
 #include <optional>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/socket.h"
 
 namespace palpa::os {
@@ -79,6 +79,30 @@ std::size_t TcpSocket::receive(std::span<std::uint8_t> buffer, int wait_ms) {
   return got.value_or(0);
 }
 
+namespace {
+
+/// Clauses.
+std::string whyNotServed(int error) {
+  switch (error) {
+    case EADDRINUSE:
+      return "another program uses this port";
+    case EADDRNOTAVAIL:
+      return "this computer has no such address";
+    case EACCES:
+      return "ports below 1024 are the administrator's";
+    default:
+      return fileTrouble(error).why;
+  }
+}
+
+std::string whyNotKnown(int error) {
+  if (error == EAI_NONAME) return "no computer has this name";
+  if (error == EAI_AGAIN) return "the service that knows names does not answer";
+  return "the service that knows names refuses it, error " + std::to_string(error);
+}
+
+}  // namespace
+
 TcpListener::TcpListener(const std::string& ipv4, std::uint16_t port, const std::string& what,
                          const std::string& advice) {
   const auto address = addressOf(ipv4, port);
@@ -92,7 +116,7 @@ TcpListener::TcpListener(const std::string& ipv4, std::uint16_t port, const std:
   socklen_t size = sizeof got;
   if (fd_ < 0 || bind(fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 ||
       listen(fd_, 8) != 0 || getsockname(fd_, reinterpret_cast<sockaddr*>(&got), &size) != 0) {
-    const std::string why = std::strerror(errno);
+    const std::string why = whyNotServed(errno);
     if (fd_ >= 0) closeSocket(fd_);
     throw Error("cannot be served (" + why + ")", what + " at " + ipv4 + ":" + std::to_string(port),
                 advice);
@@ -113,7 +137,7 @@ std::string ipv4Of(const std::string& host, const std::string& where) {
   hints.ai_family = AF_INET;
   hints.ai_socktype = SOCK_STREAM;
   if (const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found); error != 0 || !found)
-    throw UsageError("\"" + host + "\" is not known (" + gai_strerror(error) + ")", where,
+    throw UsageError("\"" + host + "\" is not known (" + whyNotKnown(error) + ")", where,
                      "Write its address in figures, such as 192.168.1.1, or correct the name");
   char text[INET_ADDRSTRLEN] = "";
   inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(found->ai_addr)->sin_addr, text,

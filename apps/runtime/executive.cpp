@@ -131,8 +131,8 @@ class RealExecutive final : public Executive {
     entries_.push_back(std::move(entry));
   }
   void stop() noexcept override { stopped_.store(true); }
-  void whenStuck(GiveUp give_up, std::int64_t patience_ns) override {
-    give_up_ = std::move(give_up);
+  void whenStuck(const GiveUp& give_up, std::int64_t patience_ns) override {
+    give_up_ = give_up;
     patience_ns_ = patience_ns;
   }
 
@@ -154,9 +154,11 @@ class RealExecutive final : public Executive {
                     [](const auto& e) { return e->policy.real_time; }))
       memory.emplace();
     std::vector<std::thread> threads;
-    if (give_up_) threads.emplace_back([this] { watchTheEnd(); });
+    threads.reserve(entries_.size() + 1);
+    if (give_up_) begin(threads, [this] { watchTheEnd(); });
     for (auto& entry : entries_)
-      if (!entry->policy.on_caller) threads.emplace_back([this, &entry] { loop(*entry); });
+      if (!entry->policy.on_caller && !begin(threads, [this, &entry] { loop(*entry); }))
+        loop(*entry);
     for (auto& entry : entries_)
       if (entry->policy.on_caller) loop(*entry);
     for (auto& thread : threads) thread.join();
@@ -186,6 +188,25 @@ class RealExecutive final : public Executive {
     std::atomic<std::int64_t> since{kIdle};  ///< its step began
     std::atomic<bool> over{false};
   };
+
+  /// False where the system gives no further thread: all that has begun shall end.
+  template <class Work>
+  bool begin(std::vector<std::thread>& threads, Work work) {
+    try {
+      threads.push_back(os::startThread(work));
+      return true;
+    } catch (...) {
+      fail();
+      return false;
+    }
+  }
+
+  /// With what was just thrown, unless something was before.
+  void fail() {
+    const std::lock_guard lock(failure_mutex_);
+    if (!failure_) failure_ = std::current_exception();
+    stop();
+  }
 
   /// Until all have ended, or what has not is given up.
   void watchTheEnd() {
@@ -217,7 +238,8 @@ class RealExecutive final : public Executive {
 
   void loop(ActivityThread& entry) {
     try {
-      if (entry.policy.real_time) entry.scheduling = os::becomeRealTime(entry.policy.cpu);
+      if (entry.policy.real_time && !stopped_.load())
+        entry.scheduling = os::becomeRealTime(entry.policy.cpu);
       const std::int64_t period = entry.activity->period_ns();
       std::int64_t due = clock_.now();
       while (!stopped_.load(std::memory_order_relaxed)) {
@@ -233,9 +255,7 @@ class RealExecutive final : public Executive {
         due = next;
       }
     } catch (...) {
-      const std::lock_guard lock(failure_mutex_);
-      if (!failure_) failure_ = std::current_exception();
-      stop();
+      fail();
     }
     entry.activity->end();
     entry.over.store(true);

@@ -64,7 +64,9 @@ class Executive {
   virtual TimeMode mode() const = 0;
   virtual const Clock& clock() const = 0;
   virtual void add(Activity& activity, const ThreadPolicy& policy) = 0;
-  virtual void run() = 0;  ///< rethrows the first exception of an activity, after stopping all
+  /// Rethrows the first exception of an activity, or Error where the system gives no thread for
+  /// one, after stopping all.
+  virtual void run() = 0;
   virtual void stop() noexcept = 0;
   /// What hangs in a call that does not come back would hold up the end of `run` for ever. Some
   /// seconds after a stop `giveUp` is then called, on a thread of its own, with the names of the
@@ -73,7 +75,7 @@ class Executive {
   /// up.
   using Stuck = std::vector<std::string>;
   using GiveUp = std::function<void(const Stuck&, const std::string& failure)>;
-  virtual void whenStuck(GiveUp, std::int64_t /*patience_ns*/) {}
+  virtual void whenStuck(const GiveUp&, std::int64_t /*patience_ns*/) {}
   /// Activities whose step has lasted this long; any thread.
   virtual Stuck stuckFor(std::int64_t) const { return {}; }
   virtual std::vector<Lateness> lateness() const { return {}; }

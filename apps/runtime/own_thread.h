@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "apps/os/real_time.h"
+
 namespace palpa::runtime {
 
 /// One piece of work after the other, beside whoever asks for it, in one thread for all of them:
@@ -40,7 +42,7 @@ class OwnThread {
     if (thread_.joinable())
       changed_.notify_one();
     else
-      thread_ = std::thread([this] { run(); });
+      thread_ = os::startThread([this] { run(); });
     return result;
   }
 

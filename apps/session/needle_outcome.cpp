@@ -161,15 +161,10 @@ void sayResult(const SessionResult& result) {
 }  // namespace
 
 ReportHead headOf(const SessionOptions& options, const NeedleWorld& world) {
-  ReportHead head;
-  head.title = world.task.title +
-               (world.task.block ? std::string()
-                                 : std::string(", ") + anatomy::name(world.patient.side) + " side");
-  head.trainee = whoPerformed(options);
-  head.user_id = options.trainee;
-  head.simulated = isSimulated(options, world);
-  head.assessed = options.assess;
-  head.taxonomy = taxonomyFacts(world.task.taxonomy);
+  const std::string side =
+      world.task.block ? "" : std::string(", ") + anatomy::name(world.patient.side) + " side";
+  ReportHead head =
+      headOf(options, world.task.title + side, world.task.taxonomy, isSimulated(options, world));
   head.station = stationFacts(options, world);
   head.parts = meaningsOf(world.task.augmentations);
   head.doses = noDoses(world.tickConfig().augmentations, world.task.augmentations);

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/patient/patient_file.h"
-#include "apps/runtime/clock.h"
 #include "apps/session/needle_world.h"
 #include "apps/session/output_folder.h"
+#include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
 #include "apps/twin/learning_hand.h"
 #include "apps/twin/operator.h"
@@ -75,30 +75,16 @@ haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld&
 }
 
 record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world) {
-  record::SessionInfo info;
-  info.uuid = options.uuid;
-  info.started_utc = runtime::utcNow();
-  info.software = std::string("palpa ") + PALPA_VERSION;
-  info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},
-                                   {"bench_seed", options.benchSeed()},
-                                   {"operator", nameOf(options.who)},
-                                   {"knows_patient", options.knows_patient},
-                                   {"simulated", isSimulated(options, world)},
-                                   {"trainee", options.trainee},
-                                   {"force_feedback", options.force_feedback},
-                                   {"side", anatomy::name(world.patient.side)},
-                                   {"augment", options.augment},
-                                   {"skin_deflection", options.skin_deflection},
-                                   {"handedness", options.left_handed ? "left" : "right"},
-                                   {"virtual_time", options.fast},
-                                   {"camera_rate_Hz", world.station.camera_rate_Hz},
-                                   {"assessed", options.assess},
-                                   {"X_DA", json(world.X_DA)},
-                                   {"X_WA", json(world.X_WA)},
-                                   {"X_WD", json(world.station.X_WD)},
-                                   {"report", jsonOf(headOf(options, world))}},
-                                  options);
+  record::SessionInfo info = infoOf(options, headOf(options, world),
+                                    {{"knows_patient", options.knows_patient},
+                                     {"side", anatomy::name(world.patient.side)},
+                                     {"augment", options.augment},
+                                     {"skin_deflection", options.skin_deflection},
+                                     {"handedness", options.left_handed ? "left" : "right"},
+                                     {"camera_rate_Hz", world.station.camera_rate_Hz},
+                                     {"X_DA", json(world.X_DA)},
+                                     {"X_WA", json(world.X_WA)},
+                                     {"X_WD", json(world.station.X_WD)}});
   info.station_json = world.station.file.json().dump();
   info.task_json = world.task.source;
   info.patient_glb = anatomy::glbOf(world.patient, "the session's patient");

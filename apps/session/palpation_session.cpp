@@ -132,24 +132,10 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
 }
 
 record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
-  record::SessionInfo info;
-  info.uuid = options.uuid;
-  info.started_utc = runtime::utcNow();
-  info.software = std::string("palpa ") + PALPA_VERSION;
-  info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},
-                                   {"bench_seed", options.benchSeed()},
-                                   {"operator", nameOf(options.who)},
-                                   {"simulated", simulated(options)},
-                                   {"trainee", options.trainee},
-                                   {"force_feedback", options.force_feedback},
-                                   {"guidance", options.guidance},
-                                   {"see_through", options.see_through},
-                                   {"augment", options.augment},
-                                   {"virtual_time", options.fast},
-                                   {"assessed", options.assess},
-                                   {"report", jsonOf(head(options))}},
-                                  options);
+  record::SessionInfo info = infoOf(options, head(options),
+                                    {{"guidance", options.guidance},
+                                     {"see_through", options.see_through},
+                                     {"augment", options.augment}});
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);
@@ -259,14 +245,8 @@ std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
 }  // namespace
 
 ReportHead PalpationWorld::head(const SessionOptions& options) const {
-  ReportHead head;
-  head.title = task.title;
-  head.trainee = whoPerformed(options);
-  head.user_id = options.trainee;
-  head.simulated = simulated(options);
-  head.assessed = options.assess;
+  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
   head.force_note = forceNote();
-  head.taxonomy = taxonomyFacts(task.taxonomy);
   head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
   for (report::Fact& fact : lumpFacts(task.library)) head.station.push_back(std::move(fact));

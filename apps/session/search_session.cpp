@@ -126,22 +126,8 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
 }
 
 record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
-  record::SessionInfo info;
-  info.uuid = options.uuid;
-  info.started_utc = runtime::utcNow();
-  info.software = std::string("palpa ") + PALPA_VERSION;
-  info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},
-                                   {"bench_seed", options.benchSeed()},
-                                   {"operator", nameOf(options.who)},
-                                   {"simulated", simulated(options)},
-                                   {"mode", options.mode},
-                                   {"trainee", options.trainee},
-                                   {"force_feedback", options.force_feedback},
-                                   {"virtual_time", options.fast},
-                                   {"assessed", options.assess},
-                                   {"report", jsonOf(head(options))}},
-                                  options);
+  record::SessionInfo info =
+      infoOf(options, head(options), nlohmann::json::object({{"mode", options.mode}}));
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);
@@ -206,15 +192,9 @@ std::vector<report::Fact> pullFacts(const SearchWorld& world) {
 }  // namespace
 
 ReportHead SearchWorld::head(const SessionOptions& options) const {
-  ReportHead head;
-  head.title = task.title;
-  head.trainee = whoPerformed(options);
-  head.user_id = options.trainee;
-  head.simulated = simulated(options);
-  head.assessed = options.assess;
+  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
   head.unit_note = format("1 U = %.3g mm in the hand: the floor is %.1f mm wide",
                           1e3 * rendering.unit, 1e3 * rendering.unit * task.spec.side);
-  head.taxonomy = taxonomyFacts(task.taxonomy);
   head.station = stationFactsOf(options, station);
   head.station.push_back({"Stiffness of the floor",
                           format("%.0f N/m, degraded %.0f N/m", rendering.real.stiffness,

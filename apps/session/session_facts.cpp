@@ -10,6 +10,7 @@
 #include "anatomy/base/json_text.h"
 #include "apps/assess/dose_counter.h"
 #include "apps/report/page/style.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::session {
 namespace {
@@ -183,6 +184,37 @@ json jsonOf(const ReportHead& head) {
           {"station", jsonOf(head.station)},
           {"parts", parts},
           {"columns", columns}};
+}
+
+ReportHead headOf(const SessionOptions& options, const std::string& title,
+                  const station::Taxonomy& taxonomy, bool simulated) {
+  ReportHead head;
+  head.title = title;
+  head.trainee = whoPerformed(options);
+  head.user_id = options.trainee;
+  head.simulated = simulated;
+  head.assessed = options.assess;
+  head.taxonomy = taxonomyFacts(taxonomy);
+  return head;
+}
+
+record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head, json of_task) {
+  record::SessionInfo info;
+  info.uuid = options.uuid;
+  info.started_utc = runtime::utcNow();
+  info.software = std::string("palpa ") + PALPA_VERSION;
+  info.command = options.command;
+  of_task.update({{"seed", options.seed},
+                  {"bench_seed", options.benchSeed()},
+                  {"operator", nameOf(options.who)},
+                  {"simulated", head.simulated},
+                  {"trainee", options.trainee},
+                  {"force_feedback", options.force_feedback},
+                  {"virtual_time", options.fast},
+                  {"assessed", options.assess},
+                  {"report", jsonOf(head)}});
+  info.session_json = sessionText(std::move(of_task), options);
+  return info;
 }
 
 ReportHead headIn(const record::SessionInfo& info, const std::string& file) {

@@ -44,8 +44,14 @@ struct ReportHead {
   /// of each part nothing yet: the columns of a table without a trial
   std::vector<assess::SubtaskDose> doses = {};
 };
+/// Its beginning, the same for every task.
+ReportHead headOf(const SessionOptions& options, const std::string& title,
+                  const station::Taxonomy& taxonomy, bool simulated);
 /// What of it the rest of the evidence does not tell, for the session's text under "report".
 nlohmann::json jsonOf(const ReportHead& head);
+/// What every task tells the evidence of its session alike; `of_task`: what it tells itself.
+record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head,
+                           nlohmann::json of_task = nlohmann::json::object());
 /// Read again. Of evidence that was made before it had a "report": what there is. Throws Error for
 /// a text that is damaged.
 ReportHead headIn(const record::SessionInfo& info, const std::string& file);

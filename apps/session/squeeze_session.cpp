@@ -111,21 +111,7 @@ SessionDevices::Hands SqueezeWorld::hands(const SessionOptions& options) const {
 }
 
 record::SessionInfo SqueezeWorld::info(const SessionOptions& options) const {
-  record::SessionInfo info;
-  info.uuid = options.uuid;
-  info.started_utc = runtime::utcNow();
-  info.software = std::string("palpa ") + PALPA_VERSION;
-  info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},
-                                   {"bench_seed", options.benchSeed()},
-                                   {"operator", nameOf(options.who)},
-                                   {"simulated", true},
-                                   {"trainee", options.trainee},
-                                   {"force_feedback", options.force_feedback},
-                                   {"virtual_time", options.fast},
-                                   {"assessed", options.assess},
-                                   {"report", jsonOf(head(options))}},
-                                  options);
+  record::SessionInfo info = infoOf(options, head(options));
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.pair_config = pairConfig(options);
@@ -163,14 +149,8 @@ SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
 }
 
 ReportHead SqueezeWorld::head(const SessionOptions& options) const {
-  ReportHead head;
-  head.title = task.title;
-  head.trainee = whoPerformed(options);
-  head.user_id = options.trainee;
-  head.simulated = true;
-  head.assessed = options.assess;
+  ReportHead head = headOf(options, task.title, task.taxonomy, true);
   head.too_hard_N = task.too_hard;
-  head.taxonomy = taxonomyFacts(task.taxonomy);
   head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
   return head;

@@ -14,23 +14,36 @@ namespace palpa::session {
 
 using training::Engine;
 
+namespace {
+
+/// `hold` leaves all of a session in its folder; true: somebody ended it early.
+template <class Hold>
+SessionLeft heldIn(const SessionOptions& options, Hold hold) {
+  OutputFolder output(options.out, options.command);
+  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
+  const std::filesystem::path& folder = output.path();
+  const BegunSession begun(folder);
+  const bool quit = hold(folder);
+  output.keep();
+  deliverSession(options, folder);
+  return {folder, quit};
+}
+
+}  // namespace
+
 SessionLeft holdNeedleSession(SessionOptions options) {
   settle(options);
   if (!options.quiet) offerUnfinished();
   NeedleWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
-  OutputFolder output(options.out, options.command);
-  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
-  const std::filesystem::path& folder = output.path();
-  const BegunSession begun(folder);
-  if (options.who == OperatorKind::person && options.demonstration)
-    showDemonstration(options, world, folder);
-  const SessionResult result = runNeedleSession(options, world, folder);
-  writeOutcome(options, world, result, folder);
-  output.keep();
-  deliverSession(options, folder);
-  return {folder, result.quit};
+  return heldIn(options, [&](const std::filesystem::path& folder) {
+    if (options.who == OperatorKind::person && options.demonstration)
+      showDemonstration(options, world, folder);
+    const SessionResult result = runNeedleSession(options, world, folder);
+    writeOutcome(options, world, result, folder);
+    return result.quit;
+  });
 }
 
 SessionLeft holdPalpation(SessionOptions options) {
@@ -42,15 +55,11 @@ SessionLeft holdPalpation(SessionOptions options) {
   const PalpationWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
-  OutputFolder output(options.out, options.command);
-  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
-  const std::filesystem::path& folder = output.path();
-  const BegunSession begun(folder);
-  const PalpationRun run = runPalpation(options, world, folder);
-  writePalpationOutcome(options, world, run, folder);
-  output.keep();
-  deliverSession(options, folder);
-  return {folder, run.quit};
+  return heldIn(options, [&](const std::filesystem::path& folder) {
+    const PalpationRun run = runPalpation(options, world, folder);
+    writePalpationOutcome(options, world, run, folder);
+    return run.quit;
+  });
 }
 
 SessionLeft holdSqueeze(SessionOptions options) {
@@ -64,15 +73,11 @@ SessionLeft holdSqueeze(SessionOptions options) {
                      "Choose window or offscreen");
   const SqueezeWorld world(options);
   checkTrainee(options);
-  OutputFolder output(options.out, options.command);
-  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
-  const std::filesystem::path& folder = output.path();
-  const BegunSession begun(folder);
-  const SqueezeRun run = runSqueeze(options, world, folder);
-  writeSqueezeOutcome(options, world, run, folder);
-  output.keep();
-  deliverSession(options, folder);
-  return {folder, run.quit};
+  return heldIn(options, [&](const std::filesystem::path& folder) {
+    const SqueezeRun run = runSqueeze(options, world, folder);
+    writeSqueezeOutcome(options, world, run, folder);
+    return run.quit;
+  });
 }
 
 SessionLeft holdSearch(SessionOptions options) {
@@ -88,15 +93,11 @@ SessionLeft holdSearch(SessionOptions options) {
         "cannot be felt with a mouse", "--operator person",
         "Give a station with a haptic device (--station), or take --operator expert or novice");
   checkTrainee(options);
-  OutputFolder output(options.out, options.command);
-  const os::InterruptNote interrupt;  // whatever comes now, report and table are written
-  const std::filesystem::path& folder = output.path();
-  const BegunSession begun(folder);
-  const SearchRun run = runSearch(options, world, folder);
-  writeSearchOutcome(options, world, run, folder);
-  output.keep();
-  deliverSession(options, folder);
-  return {folder, run.quit};
+  return heldIn(options, [&](const std::filesystem::path& folder) {
+    const SearchRun run = runSearch(options, world, folder);
+    writeSearchOutcome(options, world, run, folder);
+    return run.quit;
+  });
 }
 
 SessionLeft holdSession(Engine engine, SessionOptions options) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "anatomy/base/error.h"
 #include "apps/trial/trial_scene.h"
 
 namespace palpa::trial {
@@ -16,14 +15,17 @@ using runtime::kMillisecond;
 using runtime::kSecond;
 constexpr std::int64_t kTaskPeriod = 16'666'667;
 constexpr std::int64_t kBetweenTrials = 3 * kSecond;  // the trainee takes the tool back
-constexpr std::int64_t kReadyPatience = 15 * kSecond;
 constexpr std::int64_t kTripShown = 2 * kSecond;
 
 }  // namespace
 
 TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels,
                      runtime::Executive& executive)
-    : lead_(lead), bus_(bus), channels_(channels), executive_(executive) {
+    : lead_(lead),
+      bus_(bus),
+      channels_(channels),
+      executive_(executive),
+      real_time_(executive.mode() == runtime::TimeMode::real) {
   status_.trials = lead.trials;
 }
 
@@ -59,92 +61,10 @@ std::int64_t TrialTask::step(std::int64_t now_ns) {
   return now_ns + kTaskPeriod;
 }
 
-/// What is wrong with what the camera sees; of a board that is displaced the words stay the same
-/// while it moves on.
-std::string TrialTask::sightTrouble(const runtime::CameraView* view, std::int64_t now_ns) {
-  std::string trouble = runtime::cameraTrouble(view, now_ns);
-  if (!trouble.empty()) {
-    displaced_.reset();
-    return trouble;
-  }
-  const auto was = displaced_ ? std::optional(displaced_->board) : std::nullopt;
-  auto displaced = runtime::displacedBoard(*view, lead_.places, was);
-  if (!displaced || was != displaced->board) displaced_ = std::move(displaced);
-  return displaced_ ? displaced_->words : "";
-}
-
-/// The record marks when the camera or the board was lost, and when it was back.
-void TrialTask::watchCamera(std::int64_t now_ns) {
-  const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
-  if (!view) return;
-  const std::string trouble = sightTrouble(view, now_ns);
-  if (trouble == camera_) return;
-  if (!trouble.empty())
-    report(now_ns, EventKind::camera, trouble, 1);
-  else
-    report(now_ns, EventKind::camera,
-           view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board",
-           0);
-  camera_ = trouble;
-}
-
-/// Why no trial can begin; empty: everything is there.
-std::string TrialTask::missing(std::int64_t now_ns) {
-  if (!last_.reading.homed)
-    return status_.device.empty() ? "the haptic device is not homed" : status_.device;
-  if (std::string tool = notReady(last_); !tool.empty()) return tool;
-  return sightTrouble(bus_.camera_to_task.read(now_ns), now_ns);
-}
-
-/// Before the first trial the computer is tried as well, for the two seconds that it takes to see
-/// whether it keeps up.
-void TrialTask::checkReady(std::int64_t now_ns) {
-  if (status_.emergency_stop) return;
-  const std::string words = missing(now_ns);
-  status_.notice = words.empty() ? "" : "Not ready: " + words;
-  if (!words.empty() && lead_.automatic && now_ns - since_ns_ > kReadyPatience)
-    throw Error(words, "ready check", "Look at the station: device, camera, board");
-  if (!words.empty()) return;
-  if (realTime() && status_.trial == 0 && !load_.rehearsed())
-    status_.notice = "Wait: this computer is checked for 2 s";
-  else
-    becomeReady(now_ns);
-}
-
-void TrialTask::becomeReady(std::int64_t now_ns) {
-  report(now_ns, EventKind::ready,
-         lead_.calibration_problem.empty() ? "Ready: device homed, board seen, calibration valid"
-                                           : "Ready, but not scored: " + lead_.calibration_problem);
-  const std::string warning = status_.trial == 0 ? sayWarnings(now_ns) : "";
-  status_.state = TrialState::waiting;
-  since_ns_ = now_ns;
-  if (!lead_.automatic)
-    status_.notice = warning.empty() ? "Press Enter to start" : warning + ". Enter starts";
-}
-
-/// All for the evidence, the first for the notice; none forbids a trial.
-std::string TrialTask::sayWarnings(std::int64_t now_ns) {
-  std::string first;
-  const auto say = [&](const std::string& words) {
-    if (first.empty()) first = words;
-  };
-  for (const std::string& words : warnings_) {
-    report(now_ns, EventKind::device, words);
-    say(words);
-  }
-  if (!realTime()) return first;
-  for (const LoadWatch::Verdict& verdict : load_.verdicts()) {
-    const std::string words = verdict.what + ": " + verdict.remedy;
-    report(now_ns, EventKind::computer, words + "; palpa doctor tells more", 1);
-    say(words);
-  }
-  return first;
-}
-
 /// What a trial suffered from the computer, how often as the events' values. In virtual time
 /// nothing is late.
 void TrialTask::reportLoad(std::int64_t now_ns) {
-  if (!realTime()) return;
+  if (!real_time_) return;
   load_.look(LoadWatch::seenOn(bus_, channels_.frames.load(std::memory_order_relaxed)));
   if (const auto missed = static_cast<double>(load_.missed()); missed > 0)
     report(now_ns, EventKind::computer, "The computer missed ticks of the haptic loop in a trial",
@@ -197,11 +117,11 @@ void TrialTask::listen(std::int64_t now_ns) {
   while (bus_.haptic_to_task.pop(&record)) {
     watchSafety(record);
     last_ = record;
-    if (realTime()) load_.tick(record);
+    if (real_time_) load_.tick(record);
     watch(record);
     if (status_.active()) judge(record, now_ns);
   }
-  if (realTime())
+  if (real_time_)
     load_.look(LoadWatch::seenOn(bus_, channels_.frames.load(std::memory_order_relaxed)));
 }
 

@@ -89,7 +89,6 @@ class TrialTask : public runtime::Activity {
   void checkReady(std::int64_t now_ns);
   void becomeReady(std::int64_t now_ns);
   std::string sayWarnings(std::int64_t now_ns);
-  bool realTime() const { return executive_.mode() == runtime::TimeMode::real; }
   void reportLoad(std::int64_t now_ns);
   void startTrial(std::int64_t now_ns);
   void publish(std::int64_t now_ns);
@@ -98,6 +97,7 @@ class TrialTask : public runtime::Activity {
   runtime::Bus& bus_;
   Channels& channels_;
   runtime::Executive& executive_;
+  const bool real_time_;
   TrialStatus status_;
   std::vector<runtime::Event> safety_events_;
   std::vector<std::string> warnings_;

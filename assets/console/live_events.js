@@ -146,6 +146,19 @@ export class LiveEvents {
     this.#close();
   }
 
+  /** What happened before is not told any more: said once, below all that is. */
+  earlier() {
+    if (this.list.querySelector(".earlier")) return;
+    this.list.querySelector(".none-yet")?.remove();
+    this.list.append(
+      h(
+        "li",
+        { class: "muted earlier" },
+        "Earlier events are not shown here: they are in the session's evidence and its report.",
+      ),
+    );
+  }
+
   /**
    * A note comes twice, from here and from the station: it is shown once. False: it belongs to what
    * stands there already.

@@ -224,6 +224,7 @@ export async function show({ root, life, params: [id], open }) {
       figure.curve(m);
     },
     end: showEnd,
+    earlier: () => events.earlier(),
     event: (heard) => {
       const m = heard.event === "note" && heard.value > 0 ? { ...heard, t_s: heard.value } : heard;
       figure.event(m);

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 namespace palpa::haptics {
 namespace {
@@ -67,7 +66,7 @@ Error networkError(int error_number, const std::string& where) {
           "this computer does not allow the connection", where,
           "Check the address, the firewall's rules, and that the local port is 0 or above 1023."};
     default:
-      return {std::string("the network fails: ") + std::strerror(error_number), where,
+      return {"the network fails, error " + std::to_string(error_number), where,
               "Check the network card and the cable."};
   }
 }

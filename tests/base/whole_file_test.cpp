@@ -154,6 +154,19 @@ TEST(FileTrouble, HasWordsOfOurOwnForEachReason) {
   EXPECT_NE(fileTrouble(EMLINK).why.find(std::to_string(EMLINK)), std::string::npos);
 }
 
+TEST(FileTrouble, ForReadingToo) {
+  for (const std::errc error : {std::errc::no_such_file_or_directory, std::errc::permission_denied,
+                                std::errc::is_a_directory, std::errc::io_error}) {
+    const std::error_code code = std::make_error_code(error);
+    EXPECT_NE(whyUnread(code), code.message());
+    EXPECT_EQ(whyUnread(code).find("may not write"), std::string::npos) << whyUnread(code);
+  }
+  std::error_code missing;
+  const auto none = fs::file_size(test::freshFolder("base", "unread") / "none", missing);
+  EXPECT_EQ(none, static_cast<std::uintmax_t>(-1));
+  EXPECT_EQ(whyUnread(missing), "there is no such file");
+}
+
 TEST(ReadWhole, GivesEveryByteAndNothingWhereThereIsNoFile) {
   const auto folder = test::freshFolder("base", "read");
   std::string bytes;
@@ -164,6 +177,16 @@ TEST(ReadWhole, GivesEveryByteAndNothingWhereThereIsNoFile) {
   EXPECT_EQ(readWhole(folder / "empty"), "");
   EXPECT_EQ(readWhole(folder / "missing"), std::nullopt);
   EXPECT_EQ(readWhole(folder), std::nullopt);
+}
+
+TEST(EntriesOf, AFoldersEntriesInOrder_NothingBelowThem) {
+  const fs::path folder = test::freshFolder("base", "entries");
+  for (const char* name : {"b", "a", ".c"}) std::ofstream(folder / name) << name;
+  fs::create_directories(folder / "d/e");
+  EXPECT_EQ(entriesOf(folder),
+            (std::vector<fs::path>{folder / ".c", folder / "a", folder / "b", folder / "d"}));
+  EXPECT_TRUE(entriesOf(folder / "a").empty()) << "no folder";
+  EXPECT_TRUE(entriesOf(folder / "none").empty());
 }
 
 TEST(WholeFile, ANewFileIsReadByNoMoreThanTheOldOne) {

@@ -217,6 +217,16 @@ TEST(Failures, WhatTheSystemRefusesHasItsWord) {
   EXPECT_TRUE(holds(refused(std::errc::resource_unavailable_try_again), "threads"));
   EXPECT_TRUE(holds(refused(std::errc::too_many_files_open), "open files"));
   EXPECT_FALSE(holds(refused(std::errc::no_space_on_device), "_M_start"));
+  EXPECT_TRUE(holds(refused(std::errc::no_space_on_device), "the disk is full"));
+}
+
+/// Nobody reads the system's English but whoever asks for it.
+TEST(Failures, AFileThatTheSystemRefusesIsNamed) {
+  const auto code = std::make_error_code(std::errc::permission_denied);
+  const auto thrown = asThrown(std::filesystem::filesystem_error("directory_iterator", "/a", code));
+  EXPECT_EQ(told(thrown).text,
+            "/a: cannot be used (you may not read it). Check its name, and who may use it");
+  EXPECT_TRUE(holds(told(thrown, true).text, code.message()));
 }
 
 }  // namespace

@@ -106,5 +106,17 @@ TEST(Slips, WhereNothingIsNearNothingIsProposed) {
   }
 }
 
+/// Not those of the program, or of the group that it stands in.
+TEST(Help, EachCommandShowsExamplesOfItsOwn) {
+  int commands = 0;
+  Commands().each([&](const Words& path, const cli::CommandText& command) {
+    if (path.empty()) return;
+    ++commands;
+    EXPECT_TRUE(holds(command.footer, "xample")) << command.path;
+    EXPECT_TRUE(holds(command.footer, command.path)) << command.path << "\n" << command.footer;
+  });
+  EXPECT_GT(commands, 50) << "the walk has lost the commands";
+}
+
 }  // namespace
 }  // namespace palpa::cli_words

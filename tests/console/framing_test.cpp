@@ -88,6 +88,28 @@ TEST(Head, WhatCanBeReadInTwoWaysIsRefused) {
   EXPECT_EQ(judgeHead("GET /\n HTTP/1.1\r\n\r\n").status, 400);
 }
 
+/// What the guard judges is the same of a head as it came and of the request that is read from it.
+TEST(Head, WhatTheGuardJudges) {
+  const GuardedRequest asked = askedIn(
+      "POST /api/sessions/a1/stop HTTP/1.1\r\nHost: here:1\r\nOrigin:http://here:1\r\n"
+      "SEC-FETCH-SITE: same-origin\r\ncontent-type: \tapplication/json\r\n"
+      "Cookie: palpa=0123; a=b:c\r\nX-Palpa-Page: first\r\nX-Palpa-Page: second\r\n"
+      "X-Palpa-Write: 7\r\n\r\nHost: body",
+      "127.0.0.9");
+  EXPECT_EQ(asked.remote, "127.0.0.9");
+  EXPECT_EQ(asked.method, "POST");
+  EXPECT_EQ(asked.path, "/api/sessions/a1/stop");
+  EXPECT_EQ(asked.host, "here:1");
+  EXPECT_EQ(asked.origin, "http://here:1");
+  EXPECT_EQ(asked.fetch_site, "same-origin");
+  EXPECT_EQ(asked.content_type, "application/json");
+  EXPECT_EQ(asked.cookie, "palpa=0123; a=b:c");
+  EXPECT_EQ(asked.page_key, "first");
+  EXPECT_EQ(asked.write_id, "7");
+  for (const char* head : {"", " ", "GET", "GET ", "GET /", "\r\n", "\r\n\r\n", "GET  \r\n:\r\n"})
+    EXPECT_EQ(askedIn(head, "").host, "") << head;
+}
+
 TEST(Head, ItsEndAndTheLengthItStates) {
   EXPECT_EQ(endOfHead(""), std::string::npos);
   EXPECT_EQ(endOfHead("GET / HTTP/1.1\r\n\r"), std::string::npos);

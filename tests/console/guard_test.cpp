@@ -210,6 +210,37 @@ TEST(Guard, NoFloodStandsBeforeTheEmergencyStop) {
   EXPECT_EQ(locked.guard.judge(locked.post(stop)).status, 401);
 }
 
+/// Who may stop is known without a number being used up, however many writes there were.
+TEST(Guard, WhoMayStopIsJudgedBeforeIt) {
+  const std::string stop = "/api/sessions/20260101-120000-0a1b2c3d/stop";
+  Door door;
+  for (int i = 0; i < 100; ++i) door.guard.judge(door.post());
+  GuardedRequest asked = door.post(stop);
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(door.guard.mayStop(asked));
+  EXPECT_EQ(door.guard.judge(asked).status, 200) << "its number is its own still";
+  const auto may = [&](auto change) {
+    GuardedRequest changed = door.post(stop);
+    change(changed);
+    return door.guard.mayStop(changed);
+  };
+  EXPECT_FALSE(may([](GuardedRequest& r) { r.method = "GET"; }));
+  EXPECT_FALSE(may([](GuardedRequest& r) { r.host = "evil.example"; }));
+  EXPECT_FALSE(may([](GuardedRequest& r) { r.origin = "http://evil.example"; }));
+  EXPECT_FALSE(may([](GuardedRequest& r) { r.fetch_site = "cross-site"; }));
+  EXPECT_FALSE(may([](GuardedRequest& r) { r.content_type = "text/plain"; }));
+  EXPECT_FALSE(may([](GuardedRequest& r) { r.page_key = std::string(32, '0'); }));
+  EXPECT_FALSE(may([](GuardedRequest& r) { r.write_id = "1"; }));
+  for (const char* path :
+       {"/api/sessions/x/command", "/api/sessions/stop", "/api/sessions//stop",
+        "/api/sessions/x/y/stop", "/api/sessions/x/command?/stop", "/api/sessions/x/stop?a"})
+    EXPECT_FALSE(may([&](GuardedRequest& r) { r.path = path; })) << path;
+  Door locked(kToken);
+  EXPECT_FALSE(locked.guard.mayStop(locked.post(stop)));
+  asked = locked.post(stop);
+  asked.cookie = "palpa=" + locked.guard.enter("127.0.0.1", kToken);
+  EXPECT_TRUE(locked.guard.mayStop(asked));
+}
+
 /// 20,000 numbers are kept, whoever they came from: what is remembered does not grow for ever.
 TEST(Guard, NumbersAreKeptUpToABound) {
   Door door;

@@ -8,10 +8,13 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <future>
 #include <thread>
 #include <utility>
 
+#include "apps/console/web_server.h"
 #include "apps/runtime/clock.h"
+#include "tests/support/scratch_folder.h"
 
 namespace palpa::console {
 namespace {
@@ -19,6 +22,7 @@ namespace {
 using namespace std::chrono_literals;
 constexpr char kHead[] = "GET / HTTP/1.1\r\nHost: x\r\n\r\n";
 constexpr char kStop[] = "POST /api/sessions/a1/stop HTTP/1.1\r\nContent-Length: 2\r\n\r\n{}";
+constexpr char kStranger[] = "X-Palpa-Page: guessed\r\n";
 
 template <class Seen>
 bool comesTo(Seen seen) {
@@ -67,9 +71,12 @@ class Visitor {
 /// A lobby that runs, and who came out of it.
 struct Entrance {
   Entrance()
-      : lobby({[this](std::unique_ptr<Caller> caller) { put(requests, std::move(caller)); },
-               [this](std::unique_ptr<Caller> caller) { put(stops, std::move(caller)); },
-               [this](const std::string&) { ++slow; }, [this] { ++away; }}) {
+      : lobby({.request = [this](std::unique_ptr<Caller> who) { put(requests, std::move(who)); },
+               .may_stop = [](std::string_view head,
+                              const std::string&) { return head.find(kStranger) == head.npos; },
+               .stop = [this](std::unique_ptr<Caller> who) { put(stops, std::move(who)); },
+               .slow = [this](const std::string&) { ++slow; },
+               .away = [this] { ++away; }}) {
     os::neverWait(listener);
     thread = std::thread([this] { lobby.run(listener); });
   }
@@ -174,6 +181,19 @@ TEST(Lobby, WhatOnlyLooksLikeAStopIsARequest) {
   }
 }
 
+/// Nobody who may not stop reaches that thread, nor waits for the rest of a body here.
+TEST(Lobby, AStrangersStopIsARequest) {
+  Entrance entrance;
+  const std::string head = std::string("POST /api/sessions/a1/stop HTTP/1.1\r\n") + kStranger +
+                           "Content-Length: 2\r\n\r\n";
+  for (const std::string& said : {head, head + "{}"}) {
+    const Visitor visitor(entrance.port, "127.0.0.1");
+    visitor.say(said);
+    EXPECT_TRUE(entrance.next(entrance.requests)) << said;
+    EXPECT_EQ(entrance.count(entrance.stops), 0u) << said;
+  }
+}
+
 /// Silent ones of one address take no place from another, nor from who speaks at their own.
 TEST(Lobby, WhoIsSilentLongestMakesRoomWithinItsAddress) {
   Entrance entrance;
@@ -236,6 +256,61 @@ TEST(Lobby, AHeadWithoutEndIsHandedOnToBeRefused) {
   talks.join();
   ASSERT_TRUE(caller);
   EXPECT_LT(caller->said.size(), 64u << 10);
+}
+
+/// A console behind its lobby, whose emergency stop takes as long as the test lets it.
+struct SlowStop {
+  SlowStop() {
+    const int port = server.bind_to_any_port("127.0.0.1");
+    here = "127.0.0.1:" + std::to_string(port);
+    guard.answerTo({here});
+    server.Post("/api/sessions/a1/stop", [this](const httplib::Request&, httplib::Response& r) {
+      ++obeyed;
+      let_go.get_future().wait();
+      answer(r, nlohmann::json::object(), 202);
+    });
+    serving = std::thread([this] { server.serve(); });
+  }
+  ~SlowStop() {
+    server.end();
+    serving.join();
+  }
+  /// The answer's status; 0: none came.
+  int stop(const std::string& cookie) {
+    httplib::Client client("http://" + here);
+    client.set_read_timeout(60s);
+    const auto answer = client.Post("/api/sessions/a1/stop",
+                                    {{"Cookie", "palpa=" + cookie},
+                                     {"X-Palpa-Page", guard.pageKey()},
+                                     {"X-Palpa-Write", randomKey()}},
+                                    "{}", "application/json");
+    return answer ? answer->status : 0;
+  }
+
+  const test::ScratchFolder folder{"slow_stop"};
+  Guard guard{"the-token"};
+  Refusals refusals{folder.path() / "refused.log"};
+  WebServer server{guard, refusals};
+  std::string here;
+  std::atomic<int> obeyed{0};
+  std::promise<void> let_go;
+  std::thread serving;
+};
+
+/// While a stop is being obeyed, a hundred of a stranger at the educator's own address are refused
+/// at once: none of them waits before the educator's next.
+TEST(StopLane, StrangersTakeNoPlaceInIt) {
+  SlowStop console;
+  const std::string cookie = console.guard.enter("127.0.0.1", "the-token");
+  std::thread educator([&] { EXPECT_EQ(console.stop(cookie), 202); });
+  EXPECT_TRUE(comesTo([&] { return console.obeyed == 1; }));
+  for (int i = 0, status = 401; i < 100 && status == 401; ++i) {
+    status = console.stop(std::string(32, '0'));
+    EXPECT_EQ(status, 401) << i;
+  }
+  console.let_go.set_value();
+  educator.join();
+  EXPECT_EQ(console.obeyed, 1);
 }
 
 }  // namespace

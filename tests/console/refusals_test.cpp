@@ -55,6 +55,16 @@ TEST(Refusals, WhatWasSentStaysOneWord) {
   EXPECT_EQ(lines[1].substr(20), " - - - 400 was not understood");
 }
 
+/// Where somebody has put a link to another file, that one stays as it is.
+TEST(Refusals, NoLinkIsFollowed) {
+  const test::ScratchFolder folder("link");
+  std::ofstream(folder / "victim") << "as it was\n";
+  std::filesystem::create_symlink("victim", folder / "refused.log");
+  Refusals refusals(folder / "refused.log");
+  refusals.note("127.0.0.1", "GET", "/x", 404, "no such path");
+  EXPECT_EQ(linesOf(folder / "victim"), std::vector<std::string>{"as it was"});
+}
+
 TEST(Refusals, NoQuery) {
   const test::ScratchFolder folder("query");
   Refusals refusals(folder / "refused.log");

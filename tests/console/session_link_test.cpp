@@ -132,6 +132,33 @@ TEST(SessionLink, ANumberBeyondTheLogIsAnotherLogs) {
   EXPECT_EQ(link.wait(21, 0ms).from, 21u) << "just at its end: nothing new";
 }
 
+/// A session of many hours: whoever asks for what is not kept any more is told so, who it is, and
+/// all that is kept, in numbers that go on.
+TEST(SessionLink, TheNewestEntriesAreKept) {
+  const test::ShortFolder here;
+  Session session(here / "s");
+  constexpr int kTold = static_cast<int>(SessionLink::kMostKept) + 500;
+  session.tell(0, kTold);
+  SessionLink link(here / "s");
+  const auto isAllHere = [&] { return link.wait(kTold, 100ms).entries.size() == 1; };
+  ASSERT_TRUE(soon(isAllHere));
+  session.port.reset();
+  session.open();  // all of it is told again
+  ASSERT_TRUE(link.wait(kTold + 1, 300ms).entries.empty()) << "nothing twice";
+  const SessionLink::News news = link.wait(0, 0ms);
+  EXPECT_GT(news.from, 0u);
+  ASSERT_GT(news.entries.size(), 2u);
+  EXPECT_EQ(news.entries[0], "{\"kind\":\"hello\"}");
+  EXPECT_EQ(news.entries[1], R"({"kind":"earlier","count":)" + std::to_string(news.from + 2) + "}");
+  const std::size_t kept = kTold + 1 - (news.from + 2);
+  EXPECT_LE(kept, SessionLink::kMostKept);
+  EXPECT_GE(kept, SessionLink::kMostKept / 2);
+  EXPECT_EQ(read(link, news.from + 2, kept), session.log.since(news.from + 2, kept));
+  EXPECT_EQ(link.wait(kTold - 3, 0ms).entries, session.log.since(kTold - 3, 10));
+  session.tell(kTold, kTold + 1);
+  EXPECT_EQ(link.wait(kTold + 1, kLong).entries.size(), 1u) << "and it goes on";
+}
+
 TEST(SessionLink, TheEndIsToldOnce) {
   const test::ShortFolder here;
   auto session = std::make_unique<Session>(here / "s");

@@ -99,6 +99,26 @@ TEST_F(Stops, AStrangersIsNone) {
   EXPECT_TRUE(goesOn()) << "an emergency stop came through";
 }
 
+/// A hundred whole ones of a stranger at the educator's own address, before the educator's.
+TEST_F(Stops, AHundredOfAStrangerAreNotBeforeTheRightOne) {
+  const std::string id = session();
+  ASSERT_GE(console().events(id, "", until(5)).size(), 5u);
+  std::vector<Wire> strangers;
+  for (int i = 0; i < 100; ++i) {
+    Headers headers = without(console().writeHeaders("{}"), "X-Palpa-Page");
+    headers.emplace_back("X-Palpa-Page", std::string(32, '0'));
+    strangers.emplace_back(console().port());
+    strangers.back().send(requestOf("POST", path(), headers, "{}"));
+  }
+  const Answer right = stop();
+  EXPECT_EQ(right.status, 202) << right.head << right.body;
+  for (Wire& stranger : strangers) {
+    const int status = answerIn(stranger.read(60s)).status;
+    EXPECT_TRUE(status == 403 || status == 503) << status;
+  }
+  leave(id);
+}
+
 /// Every limit reached: writes, connections, threads. One request, one answer, and it has stopped.
 TEST_F(Stops, ItGetsThroughWithEveryPlaceTakenAndTheFloodLimitReached) {
   const std::string id = session();

@@ -7,7 +7,10 @@
 #include <memory>
 #include <vector>
 
+#include "anatomy/base/error.h"
+#include "apps/live/port.h"
 #include "peer.h"
+#include "tests/support/no_threads.h"
 #include "tests/support/short_folder.h"
 
 namespace palpa::live {
@@ -54,6 +57,21 @@ TEST(StopPort, PressesAndThenConfirms) {
     ASSERT_TRUE(hand.isConfirmed());
     EXPECT_EQ(session.presses, i);
   }
+}
+
+/// Where the session cannot have its threads, nothing of its sockets stays behind.
+TEST(StopPort, WithoutAThreadThereIsNoSocketEither) {
+  const test::ShortFolder here;
+  const std::string path = here / "s";
+  const LiveLog log;
+  {
+    const test::NoThreads none;
+    EXPECT_THROW(StopPort(path, [] {}), Error);
+    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_THROW(Port(path, log, [](const std::string&) {}), Error);
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+  EXPECT_NO_THROW(StopPort(path, [] {})) << "the next may have it";
 }
 
 TEST(StopPort, NothingElsePressesIt) {

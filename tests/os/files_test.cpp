@@ -55,8 +55,36 @@ TEST(Files, NoneIsMadeThroughALink) {
   EXPECT_EQ(createNew(folder / "a"), std::errc::file_exists);
   EXPECT_TRUE(createPrivate(folder / "a"));
   EXPECT_FALSE(fs::exists(folder / "elsewhere"));
-  write(folder / "elsewhere", "records on another disk");
-  EXPECT_FALSE(createPrivate(folder / "a")) << "a file that is there is its owner's choice";
+  write(folder / "elsewhere", "somebody's");
+  EXPECT_EQ(createPrivate(folder / "a"), std::errc::too_many_symbolic_link_levels);
+  EXPECT_EQ(appendPrivate(folder / "a", "more"), std::errc::too_many_symbolic_link_levels);
+  EXPECT_EQ(textOf(folder / "elsewhere"), "somebody's");
+}
+
+TEST(Files, OnlyAFileOfTheUsersOwnIsUsedAgain) {
+  const test::ScratchFolder folder("os-own");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_directory(folder / "folder");
+  for (const char* name : {"pipe", "folder"}) {
+    EXPECT_TRUE(createPrivate(folder / name)) << name;
+    EXPECT_TRUE(appendPrivate(folder / name, "more")) << name;
+  }
+  write(folder / "anothers", "theirs");
+  if (::chown((folder / "anothers").c_str(), 12345, static_cast<gid_t>(-1)) != 0)
+    GTEST_SKIP() << "only the administrator can give a file away";
+  fs::permissions(folder / "anothers", fs::perms::all);
+  EXPECT_EQ(createPrivate(folder / "anothers"), std::errc::operation_not_permitted);
+  EXPECT_EQ(appendPrivate(folder / "anothers", "more"), std::errc::operation_not_permitted);
+  EXPECT_EQ(textOf(folder / "anothers"), "theirs");
+}
+
+TEST(Files, WhatIsAppendedComesBehind) {
+  const test::ScratchFolder folder("os-append");
+  EXPECT_FALSE(appendPrivate(folder / "a", "one "));
+  EXPECT_FALSE(appendPrivate(folder / "a", "two"));
+  EXPECT_EQ(textOf(folder / "a"), "one two");
+  EXPECT_EQ(privacyOf(folder / "a"), Privacy::own);
+  EXPECT_EQ(appendPrivate(folder / "not/there", "x"), std::errc::no_such_file_or_directory);
 }
 
 TEST(Files, FoldersThatAreMadeAreTheUsersAlone_GivenOnesStay) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "anatomy/base/error.h"
 #include "apps/os/tcp_socket.h"
 
 namespace palpa::os {
@@ -128,6 +129,18 @@ TEST(Socket, OnlyFiguresAreLoopback) {
   for (const char* own : {"127.0.0.1", "127.1.2.3"}) EXPECT_TRUE(isLoopbackAddress(own)) << own;
   for (const char* other : {"127.evil.org", "10.0.0.1", "0.0.0.0", "localhost", "::1", ""})
     EXPECT_FALSE(isLoopbackAddress(other)) << other;
+}
+
+TEST(TcpListener, WhyAPortCannotBeHadIsSaidInOurWords) {
+  const TcpListener taken("127.0.0.1", 0);
+  try {
+    const TcpListener second("127.0.0.1", taken.port(), "the data", "Choose another port");
+    ADD_FAILURE() << "two at one port";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.what(), "the data at 127.0.0.1:" + std::to_string(taken.port()) +
+                            ": cannot be served (another program uses this port). Choose another "
+                            "port");
+  }
 }
 
 }  // namespace

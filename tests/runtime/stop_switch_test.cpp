@@ -7,9 +7,11 @@
 #include <thread>
 
 #include "activities.h"
+#include "anatomy/base/error.h"
 #include "apps/runtime/device_adapters.h"
 #include "apps/runtime/haptic_activity.h"
 #include "tests/haptics/needle_bench.h"
+#include "tests/support/no_threads.h"
 
 /// The emergency stop's way to the tick, whatever else hangs.
 namespace palpa::runtime {
@@ -184,6 +186,19 @@ TEST(StopSwitch, IsObeyedWhileEveryOtherThreadHangs) {
   while (press < ticks.size() && !ticks[press].commands.emergency_stop) ++press;
   EXPECT_EQ(loop.bus.stop.presses(), 1u);
   expectNoForceFrom(ticks, press);
+}
+
+/// What cannot have its thread ends them all, in words; nothing of it was begun.
+TEST(RealExecutive, WithoutThreadsItEndsInWords) {
+  const auto executive = makeRealExecutive();
+  int steps = 0;
+  const auto count = [&](std::int64_t now) { return ++steps, now + kMillisecond; };
+  Doing camera("camera", count), scene("scene", count);
+  executive->add(camera, {0, false, false});
+  executive->add(scene, {0, false, true});
+  const test::NoThreads none;
+  EXPECT_THROW(executive->run(), Error);
+  EXPECT_EQ(steps, 0);
 }
 
 TEST(RealExecutive, NothingIsGivenUpThatEndsInTime) {

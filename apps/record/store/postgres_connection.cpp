@@ -4,6 +4,7 @@
 #include <mutex>
 #include <thread>
 
+#include "apps/os/real_time.h"
 #include "apps/os/socket.h"
 #include "apps/record/store/postgres_library.h"
 #include "apps/record/store/sql_connection.h"
@@ -87,7 +88,7 @@ class SilenceWatch {
     {
       const std::lock_guard lock(mutex_);
       to();
-      if (!over_ && !thread_.joinable()) thread_ = std::thread([this] { run(); });
+      if (!over_ && !thread_.joinable()) thread_ = os::startThread([this] { run(); });
     }
     changed_.notify_all();
   }
