@@ -43,14 +43,14 @@ std::error_code createNew(const fs::path& file) {
 namespace {
 
 /// Nothing but a file of this user's; whoever put another's, a link or a pipe there gets nothing.
-std::error_code useOwn(const fs::path& file, int flags, const std::string& text) {
+std::error_code useOne(const fs::path& file, int flags, bool own, const std::string& text) {
   const int descriptor = ::open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return lastError();
   std::error_code problem;
   struct stat facts {};
   if (::fstat(descriptor, &facts) != 0)
     problem = lastError();
-  else if (!S_ISREG(facts.st_mode) || facts.st_uid != ::geteuid())
+  else if (!S_ISREG(facts.st_mode) || (own && facts.st_uid != ::geteuid()))
     problem = make_error_code(std::errc::operation_not_permitted);
   else if (::write(descriptor, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     problem = make_error_code(std::errc::no_space_on_device);
@@ -62,13 +62,13 @@ std::error_code useOwn(const fs::path& file, int flags, const std::string& text)
 
 std::error_code createPrivate(const fs::path& file) {
   const std::error_code problem = createNew(file);
-  return problem == std::errc::file_exists ? useOwn(file, O_RDWR, "") : problem;
+  return problem == std::errc::file_exists ? useOne(file, O_RDWR, false, "") : problem;
 }
 
 std::error_code appendPrivate(const fs::path& file, const std::string& text) {
   const std::error_code problem = createNew(file);
   if (problem && problem != std::errc::file_exists) return problem;
-  return useOwn(file, O_WRONLY | O_APPEND, text);
+  return useOne(file, O_WRONLY | O_APPEND, true, text);
 }
 
 std::error_code makeFolders(const fs::path& folder) {

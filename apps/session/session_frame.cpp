@@ -52,6 +52,16 @@ void closeEvidence(runtime::RecorderActivity& recorder, record::SessionWriter& w
   }
 }
 
+/// What the parts that still could have left for it goes into the evidence as well; the fault that
+/// ended the session is told, and no other.
+void keepEvidence(runtime::RecorderActivity& recorder, record::SessionWriter& writer) noexcept {
+  try {
+    recorder.finish();
+    writer.close();
+  } catch (const std::exception&) {
+  }
+}
+
 /// A session of which something hangs: this program, anew, makes of its evidence what it owes.
 [[noreturn]] void leaveBehind(const SessionOptions& options, const std::filesystem::path& folder) {
   if (!options.live.empty())  // nobody listens at them any more
@@ -214,7 +224,12 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
         leaveBehind(options_, folder_);
       },
       kEndPatience);
-  executive_->run();
+  try {
+    executive_->run();
+  } catch (...) {
+    keepEvidence(recorder, writer);
+    throw;
+  }
   scene.finish(executive_->clock().now());
   recorder.finish();
   igtl.finish(executive_->clock().now());

@@ -8,7 +8,11 @@ using runtime::EventKind;
 
 namespace {
 
-constexpr std::int64_t kReadyPatience = 15 * runtime::kSecond;
+// A simulated person does what he sees: on a computer that hardly draws, he is given his pictures,
+// but not for ever.
+constexpr std::int64_t kReadyPatience = 15 * runtime::kSecond,
+                       kLongestPatience = 8 * kReadyPatience;
+constexpr std::uint64_t kReadyPictures = 60;
 
 }  // namespace
 
@@ -49,14 +53,28 @@ std::string TrialTask::missing(std::int64_t now_ns) {
   return sightTrouble(bus_.camera_to_task.read(now_ns), now_ns);
 }
 
+/// Whether the ready check has lasted longer than anything that somebody could still put right.
+bool TrialTask::isTooLong(std::int64_t now_ns) {
+  const std::uint64_t pictures = channels_.frames.load(std::memory_order_relaxed);
+  if (check_since_ns_ != since_ns_) {
+    check_since_ns_ = since_ns_;
+    check_pictures_ = pictures;
+  }
+  const std::int64_t lasted = now_ns - since_ns_;
+  return lasted > kLongestPatience ||
+         (lasted > kReadyPatience && pictures - check_pictures_ >= kReadyPictures);
+}
+
 /// Before the first trial the computer is tried as well, for the two seconds that it takes to see
 /// whether it keeps up.
 void TrialTask::checkReady(std::int64_t now_ns) {
   if (status_.emergency_stop) return;
   const std::string words = missing(now_ns);
   status_.notice = words.empty() ? "" : "Not ready: " + words;
-  if (!words.empty() && lead_.automatic && now_ns - since_ns_ > kReadyPatience)
+  if (!words.empty() && lead_.automatic && isTooLong(now_ns)) {
+    report(now_ns, EventKind::computer, "No trial could begin: " + words);
     throw Error(words, "ready check", "Look at the station: device, camera, board");
+  }
   if (!words.empty()) return;
   if (real_time_ && status_.trial == 0 && !load_.rehearsed())
     status_.notice = "Wait: this computer is checked for 2 s";

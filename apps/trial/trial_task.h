@@ -87,6 +87,7 @@ class TrialTask : public runtime::Activity {
   void watchSafety(const haptics::FlightRecord& record);
   std::string missing(std::int64_t now_ns);
   void checkReady(std::int64_t now_ns);
+  bool isTooLong(std::int64_t now_ns);
   void becomeReady(std::int64_t now_ns);
   std::string sayWarnings(std::int64_t now_ns);
   void reportLoad(std::int64_t now_ns);
@@ -106,12 +107,14 @@ class TrialTask : public runtime::Activity {
   std::string camera_ = runtime::cameraTrouble(nullptr, 0);  ///< what was last said of it
   std::optional<runtime::Displaced> displaced_;              ///< as it was last said
   std::int64_t trip_ns_ = 0,
-               warm_ns_ = -1;       ///< of the last trip, of the last tick with warm drives
-  std::int64_t since_ns_ = 0;       ///< the current state began
-  std::uint32_t presses_seen_ = 0;  ///< of the emergency stop
-  std::int64_t start_ns_ = 0;       ///< of the trial
-  int pictures_ = 0;                ///< asked for so far
-  std::int64_t now_ns_ = 0;         ///< of this step
+               warm_ns_ = -1;         ///< of the last trip, of the last tick with warm drives
+  std::int64_t since_ns_ = 0;         ///< the current state began
+  std::int64_t check_since_ns_ = -1;  ///< `since_ns_` of this ready check
+  std::uint64_t check_pictures_ = 0;  ///< shown before it
+  std::uint32_t presses_seen_ = 0;    ///< of the emergency stop
+  std::int64_t start_ns_ = 0;         ///< of the trial
+  int pictures_ = 0;                  ///< asked for so far
+  std::int64_t now_ns_ = 0;           ///< of this step
   bool quit_ = false;
 };
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "anatomy/base/error.h"
@@ -122,6 +123,22 @@ TEST(Finish, AKilledSessionGetsWhatAnUndisturbedOneSaysUpToThere) {
     }
     EXPECT_GT(in_the_middle, 0) << "no kill fell into the session";
   }
+}
+
+/// From the second trial's ready check on a board is not seen.
+TEST(Finish, ASessionThatFailsInTheMiddleHasMadeItsReportItself) {
+  const Folder here;
+  nlohmann::json station = nlohmann::json::parse(contentOf(quickStation("virtual_bench.json")));
+  station["twin"]["camera_faults"] = {{{"kind", "hidden"}, {"from_s", 13}, {"to_s", 9000}}};
+  const Outcome outcome = palpa(session({"--station", here.file("station.json", station.dump()),
+                                         "--seed", kShortTrial, "--trials", "3", "--out", "A"}),
+                                here.path());
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "ready check")) << outcome.err;
+  const Pages made(here / "A");
+  EXPECT_TRUE(says(made.table, "\n1,")) << made.table;
+  EXPECT_TRUE(says(made.report, "No trial could begin")) << outcome.out;
+  EXPECT_TRUE(says(palpa({"finish"}, here.path()).out, "was finished")) << "nothing is owed";
 }
 
 TEST(Finish, OfACompleteSessionNothingIsOwed) {

@@ -86,9 +86,9 @@ json schemaOf(const std::string& kind) {
 bool matches(const std::string& text, const std::string& pattern) {
   static std::map<std::string, std::regex> made;  // it takes longer than to match
   const auto found = made.find(pattern);
-  return std::regex_match(
-      text, found != made.end() ? found->second
-                                : made.emplace(pattern, std::regex(pattern)).first->second);
+  return std::regex_match(text, found != made.end()
+                                    ? found->second
+                                    : made.emplace(pattern, std::regex(pattern)).first->second);
 }
 
 std::vector<std::string> publishedKinds() {
