@@ -24,6 +24,10 @@ class LiveSession {
               runtime::StopSwitch& stop);
 
   LiveLog& log() { return log_; }
+  /// Tells what is left. False: the line to those who look on hangs in a call, and is left behind.
+  bool end() { return port_.end(); }
+  /// That line has served nobody for so long; any thread.
+  bool silentFor(std::chrono::nanoseconds time) const { return port_.silentFor(time); }
   /// On the scene's thread, once a frame: what is on the screen in words. Told when it has changed,
   /// at most five times a second.
   void show(const scene::Hud& hud, const trial::TrialStatus& status, std::int64_t now_ns);

@@ -1,10 +1,14 @@
 #include "apps/live/port.h"
 
 #include <algorithm>
+#include <atomic>
+#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+#include <vector>
 
+#include "apps/live/wire.h"
 #include "apps/os/real_time.h"
 #include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
@@ -17,11 +21,66 @@ constexpr std::size_t kMostPeers = 8, kEntriesAtOnce = 256, kEnoughWaiting = 64 
 // Of one peer: another's turn comes, and the session's end, whatever one sends
 constexpr int kCallersAtOnce = 16, kReadsAtOnce = 16;
 constexpr int kLook_ms = 25, kQuality = 80, kWidest = 1280;
-constexpr std::chrono::milliseconds kFarewell{500};
+constexpr std::chrono::milliseconds kFarewell{500}, kHung{2000};
 
 }  // namespace
 
-struct Port::Peer {
+/// What the port's thread works with. It may outlive the port, where it hangs; then without what is
+/// the port's owner's.
+class Port::Line {
+ public:
+  Line(int listener, const LiveLog& log, Received received, std::chrono::milliseconds patience)
+      : patience_(patience),
+        listener_(os::sharedSocket(listener)),
+        log_(&log),
+        received_(std::move(received)) {
+    if (listener_ < 0)
+      throw Error("has no descriptor left", "this process", "Raise the limit (ulimit -n)");
+  }
+  ~Line() { os::closeSocket(listener_); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  void run();
+
+  // Any thread.
+  void askToEnd() { ending_.store(true); }
+  void leaveOwner();
+  bool silentFor(std::chrono::nanoseconds time) const;
+  bool wantsPicture() const {
+    return watched_.load(std::memory_order_relaxed) &&
+           !has_picture_.load(std::memory_order_acquire);
+  }
+  void offer(scene::Image picture);
+
+ private:
+  struct Peer;
+  void waitForPeers(int timeout_ms);
+  void accept();
+  void read(Peer& peer);
+  void apply(Peer& peer);
+  void write(Peer& peer);
+  void sendTo(Peer& peer);
+  void encodePicture();
+  void leaveLost();
+  bool allSent();
+  std::size_t logSize();
+  std::vector<std::string> logSince(std::size_t from);
+  void receive(const std::string& command);
+
+  const std::chrono::milliseconds patience_;
+  const int listener_;
+  std::vector<std::unique_ptr<Peer>> peers_;
+  std::atomic<runtime::ServingClock::time_point> came_round_ = runtime::ServingClock::now();
+  std::atomic<bool> watched_{false}, has_picture_{false}, ending_{false};
+  std::mutex picture_mutex_;
+  scene::Image picture_;
+  std::mutex owner_mutex_;
+  const LiveLog* log_;  ///< null: the owner is gone
+  Received received_;
+};
+
+struct Port::Line::Peer {
   explicit Peer(int descriptor) : socket(descriptor) {}
   ~Peer() { os::closeSocket(socket); }
   Peer(const Peer&) = delete;
@@ -38,20 +97,64 @@ struct Port::Peer {
 
 Port::Port(const std::string& path, const LiveLog& log, Received received,
            std::chrono::milliseconds patience)
-    : log_(log),
-      received_(std::move(received)),
-      patience_(patience),
-      listener_(path, "Give a folder that can be written to, or leave out --live") {
+    : listener_(path, "Give a folder that can be written to, or leave out --live"),
+      line_(std::make_shared<Line>(listener_.socket(), log, std::move(received), patience)) {
   ar::loadCodecs();
-  thread_ = os::startThread([this] { run(); });
+  const auto over = std::make_shared<std::promise<void>>();
+  over_ = over->get_future();
+  thread_ = os::startThread([line = line_, over] {
+    line->run();
+    over->set_value();
+  });
 }
 
-Port::~Port() {
-  ending_.store(true);
-  thread_.join();
+Port::~Port() { end(); }
+
+bool Port::end() {
+  if (!thread_.joinable()) return true;
+  line_->askToEnd();
+  const bool over = over_.wait_for(kFarewell + kHung) == std::future_status::ready;
+  if (over) {
+    thread_.join();
+  } else {
+    line_->leaveOwner();
+    thread_.detach();
+  }
+  return over;
 }
 
-void Port::offer(scene::Image picture) {
+bool Port::silentFor(std::chrono::nanoseconds time) const { return line_->silentFor(time); }
+
+bool Port::wantsPicture() const { return line_->wantsPicture(); }
+
+void Port::offer(scene::Image picture) { line_->offer(std::move(picture)); }
+
+void Port::Line::leaveOwner() {
+  const std::lock_guard lock(owner_mutex_);
+  log_ = nullptr;
+  received_ = nullptr;
+}
+
+std::size_t Port::Line::logSize() {
+  const std::lock_guard lock(owner_mutex_);
+  return log_ ? log_->size() : 0;
+}
+
+std::vector<std::string> Port::Line::logSince(std::size_t from) {
+  const std::lock_guard lock(owner_mutex_);
+  return log_ ? log_->since(from, kEntriesAtOnce) : std::vector<std::string>{};
+}
+
+void Port::Line::receive(const std::string& command) {
+  const std::lock_guard lock(owner_mutex_);
+  if (received_) received_(command);
+}
+
+bool Port::Line::silentFor(std::chrono::nanoseconds time) const {
+  return runtime::ServingClock::now() - came_round_.load() >= time;
+}
+
+void Port::Line::offer(scene::Image picture) {
   if (picture.channels != 3 || picture.width <= 0 || picture.height <= 0 ||
       picture.pixels.size() !=
           3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
@@ -61,10 +164,11 @@ void Port::offer(scene::Image picture) {
   has_picture_.store(true, std::memory_order_release);
 }
 
-void Port::run() {
+void Port::Line::run() {
   os::giveWay();
   runtime::ServingClock::time_point leave{};
   for (;;) {
+    came_round_.store(runtime::ServingClock::now());
     waitForPeers(kLook_ms);
     accept();
     encodePicture();
@@ -76,29 +180,30 @@ void Port::run() {
     if (!ending_.load()) continue;
     const auto now = runtime::ServingClock::now();
     if (leave == runtime::ServingClock::time_point{}) leave = now + kFarewell;
-    if (allSent() || now > leave) return;
+    if (allSent() || now > leave) break;
   }
+  peers_.clear();
 }
 
-void Port::waitForPeers(int timeout_ms) {
-  std::vector<os::WatchedSocket> all{os::WatchedSocket{listener_.socket()}};
+void Port::Line::waitForPeers(int timeout_ms) {
+  std::vector<os::WatchedSocket> all{os::WatchedSocket{listener_}};
   for (const auto& peer : peers_) all.push_back({peer->socket, !peer->waiting.empty()});
   os::waitForAny(all, timeout_ms);
 }
 
-void Port::accept() {
+void Port::Line::accept() {
   for (int callers = 0, socket;
-       callers < kCallersAtOnce && (socket = os::acceptOne(listener_.socket())) >= 0; ++callers) {
+       callers < kCallersAtOnce && (socket = os::acceptOne(listener_)) >= 0; ++callers) {
     if (peers_.size() >= kMostPeers || !os::sameUser(socket)) {
       os::closeSocket(socket);
     } else {
       peers_.push_back(std::make_unique<Peer>(socket));
-      peers_.back()->waiting = encoded(FrameKind::known, std::to_string(log_.size()));
+      peers_.back()->waiting = encoded(FrameKind::known, std::to_string(logSize()));
     }
   }
 }
 
-void Port::read(Peer& peer) {
+void Port::Line::read(Peer& peer) {
   char bytes[4096];
   for (int reads = 0; reads < kReadsAtOnce && !peer.lost; ++reads) {
     const std::optional<std::size_t> count = os::receiveSome(peer.socket, bytes, sizeof bytes);
@@ -109,27 +214,27 @@ void Port::read(Peer& peer) {
   }
 }
 
-void Port::apply(Peer& peer) {
+void Port::Line::apply(Peer& peer) {
   try {
     while (const auto frame = peer.decoder.next()) {
       if (frame->kind == FrameKind::watch) peer.watches = frame->body == "1";
-      if (frame->kind == FrameKind::command) received_(frame->body);
+      if (frame->kind == FrameKind::command) receive(frame->body);
     }
   } catch (const Error&) {
     peer.lost = true;  // it does not speak our language
   }
 }
 
-void Port::sendTo(Peer& peer) {
+void Port::Line::sendTo(Peer& peer) {
   if (peer.waiting.size() >= kEnoughWaiting) return;
-  for (const std::string& entry : log_.since(peer.sent, kEntriesAtOnce)) {
+  for (const std::string& entry : logSince(peer.sent)) {
     peer.waiting += encoded(FrameKind::entry, entry);
     ++peer.sent;
     if (peer.waiting.size() >= kEnoughWaiting) return;
   }
 }
 
-void Port::write(Peer& peer) {
+void Port::Line::write(Peer& peer) {
   sendTo(peer);
   const auto now = runtime::ServingClock::now();
   while (!peer.waiting.empty()) {
@@ -145,7 +250,7 @@ void Port::write(Peer& peer) {
   peer.took = now;
 }
 
-void Port::encodePicture() {
+void Port::Line::encodePicture() {
   watched_.store(
       std::any_of(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->watches; }),
       std::memory_order_relaxed);
@@ -161,15 +266,16 @@ void Port::encodePicture() {
     if (peer->watches && peer->waiting.size() < kEnoughWaiting) peer->waiting += frame;
 }
 
-void Port::leaveLost() {
+void Port::Line::leaveLost() {
   peers_.erase(
       std::remove_if(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->lost; }),
       peers_.end());
 }
 
-bool Port::allSent() const {
-  return std::all_of(peers_.begin(), peers_.end(), [this](const auto& peer) {
-    return peer->waiting.empty() && peer->sent == log_.size();
+bool Port::Line::allSent() {
+  const std::size_t all = logSize();
+  return std::all_of(peers_.begin(), peers_.end(), [all](const auto& peer) {
+    return peer->waiting.empty() && peer->sent >= all;
   });
 }
 

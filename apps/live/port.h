@@ -1,16 +1,14 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "apps/live/live_sink.h"
-#include "apps/live/wire.h"
 #include "apps/os/local_socket.h"
 #include "scene/scene_state.h"
 
@@ -29,36 +27,24 @@ class Port {
   /// come again.
   Port(const std::string& path, const LiveLog& log, Received received,
        std::chrono::milliseconds patience = std::chrono::seconds(10));
-  ~Port();  ///< tells what is left, for at most half a second
+  ~Port();  ///< as end()
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
 
+  /// Tells what is left, for at most half a second. False: its thread hangs in a call and is left
+  /// behind, two seconds later; it touches neither `log` nor `received` any more.
+  bool end();
+  /// Nobody has been served for so long: its thread hangs. Any thread.
+  bool silentFor(std::chrono::nanoseconds time) const;
   /// Somebody wants pictures, and the last one is gone.
-  bool wantsPicture() const {
-    return watched_.load(std::memory_order_relaxed) &&
-           !has_picture_.load(std::memory_order_acquire);
-  }
+  bool wantsPicture() const;
   void offer(scene::Image picture);
 
  private:
-  struct Peer;
-  void run();
-  void waitForPeers(int timeout_ms);
-  void accept();
-  void read(Peer& peer);
-  void apply(Peer& peer);
-  void write(Peer& peer);
-  void sendTo(Peer& peer);
-  void encodePicture();
-  void leaveLost();
-  bool allSent() const;
-
-  const LiveLog& log_;
-  const Received received_;
-  const std::chrono::milliseconds patience_;
+  class Line;
   const os::LocalListener listener_;
-  std::vector<std::unique_ptr<Peer>> peers_;
-  std::atomic<bool> watched_{false}, has_picture_{false}, ending_{false};
-  std::mutex picture_mutex_;
-  scene::Image picture_;
+  const std::shared_ptr<Line> line_;  ///< its thread's as well
+  std::future<void> over_;
   std::thread thread_;
 };
 

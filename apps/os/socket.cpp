@@ -90,6 +90,13 @@ void endWriting(int socket) { ::shutdown(socket, SHUT_WR); }
 
 void endBoth(int socket) { ::shutdown(socket, SHUT_RDWR); }
 
+std::optional<std::chrono::milliseconds> silentSince(int socket) {
+  tcp_info facts{};
+  socklen_t size = sizeof facts;
+  if (::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &facts, &size) != 0) return std::nullopt;
+  return std::chrono::milliseconds(facts.tcpi_last_data_recv);
+}
+
 void closeSocket(int socket) { ::close(socket); }
 
 void reuseAddress(int socket) {

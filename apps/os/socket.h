@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -41,6 +42,8 @@ std::optional<Address> ownOf(int socket);
 
 void endWriting(int socket);
 void endBoth(int socket);
+/// Since bytes came last, of a TCP socket; nothing: it is none.
+std::optional<std::chrono::milliseconds> silentSince(int socket);
 void closeSocket(int socket);
 
 /// An address whose last connections are not quite over may be listened at again.

@@ -31,8 +31,8 @@ enum class EventKind : std::uint8_t {
   let_go,      ///< the handle of a search
   thing,       ///< that is held now
   answer,      ///< which thing has more, 1 or 2
-  computer,    ///< a part of it does not answer, or does again (0); it cannot keep up (1); what a
-               ///< trial suffered from that, how often
+  computer,    ///< a part of it does not answer (1), or does again (0); it cannot keep up (1); what
+               ///< a trial suffered from that, how often
   picture      ///< is kept of this moment: its file and caption; trial time, s
 };
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "anatomy/base/uuid.h"
+#include "apps/live/wire.h"
 #include "apps/os/child_process.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/recorders.h"
@@ -26,6 +27,7 @@ live::Hello helloOf(const SessionOptions& o, const station::Station& station,
 }
 
 constexpr std::int64_t kEndPatience = 5 * runtime::kSecond;
+constexpr const char* kLeftBehind = " did not answer at the end of the session and was left behind";
 
 std::string listed(const runtime::Executive::Stuck& stuck) {
   std::string all;
@@ -197,7 +199,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer,
                                      world_.tick.period_ns);
   ProgressLine progress(options_.quiet);
-  SessionWatch watch(*executive_, channels_, bus_.stop);
+  SessionWatch watch(*executive_, channels_, bus_.stop, live_.get());
   const WindowWatch window([&watch] { watch.windowIsLost(); });
   std::optional<StopKeyWatch> stop_key;
   if (stop_key_) stop_key.emplace(*stop_key_, bus_.stop);
@@ -216,7 +218,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   executive_->whenStuck(
       [&](const runtime::Executive::Stuck& stuck, const std::string& failure) {
         if (!failure.empty()) sayTrouble(failure);
-        sayTrouble(listed(stuck) + " did not answer at the end of the session and was left behind");
+        sayTrouble(listed(stuck) + kLeftBehind);
         if (std::find(stuck.begin(), stuck.end(), recorder.name()) == stuck.end())
           closeEvidence(recorder, writer);
         leaveBehind(options_, folder_);
@@ -232,6 +234,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   recorder.finish();
   igtl.finish(executive_->clock().now());
   writer.close();
+  if (live_ && !live_->end()) sayTrouble(partInWords("console") + kLeftBehind);
   live_.reset();
   SessionRun run = leftBy(task, scene);
   for (report::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));

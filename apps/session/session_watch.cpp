@@ -31,11 +31,27 @@ std::string partInWords(const std::string& activity) {
       {"geometry", "the geometry"},
       {"stop key", "the space bar's thread"},
       {"progress", "the terminal"},
+      {"console", "the line to the console"},
       {"force sensor", "the force sensor"},
       {"force guard", "the line to the force guard"}};
   const auto found = kWords.find(activity);
   return found == kWords.end() ? activity : found->second;
 }
+
+namespace {
+
+/// A device's motors keep what they had, whatever is asked of them.
+std::string silenceInWords(const std::string& activity) {
+  return partInWords(activity) + " does not answer" +
+         (activity == "falcon" ? " and may keep its last force: switch its power off" : "") +
+         "; all other parts go on";
+}
+
+std::string returnInWords(const std::string& activity) {
+  return partInWords(activity) + " answers again";
+}
+
+}  // namespace
 
 std::int64_t SessionWatch::step(std::int64_t now_ns) {
   if (note_.noted()) return endSession("Interrupted", now_ns);
@@ -58,16 +74,18 @@ std::int64_t SessionWatch::endSession(const char* why, std::int64_t now_ns) {
 
 void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   next_look_ns_ = now_ns + kStuckPeriod;
-  const runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
+  runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
+  if (console_ && console_->silentFor(std::chrono::nanoseconds(kStuck))) stuck.push_back("console");
   const auto tell = [this](const runtime::Executive::Stuck& of,
-                           const runtime::Executive::Stuck& not_in, const char* what) {
+                           const runtime::Executive::Stuck& not_in,
+                           std::string (*words)(const std::string&), double in_report) {
     for (const std::string& name : of)
       if (std::find(not_in.begin(), not_in.end(), name) == not_in.end())
-        channels_.signals_to_task.push({trial::UserCommand::remark, partInWords(name) + what});
+        channels_.signals_to_task.push({trial::UserCommand::remark, words(name), in_report});
   };
-  tell(stuck, stuck_, " does not answer; all other parts go on");
-  tell(stuck_, stuck, " answers again");
-  stuck_ = stuck;
+  tell(stuck, stuck_, silenceInWords, 1);
+  tell(stuck_, stuck, returnInWords, 0);
+  stuck_ = std::move(stuck);
 }
 
 std::int64_t StopKeyWatch::step(std::int64_t now_ns) {

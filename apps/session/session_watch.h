@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/live/live_session.h"
 #include "apps/os/signals.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/executive.h"
@@ -19,8 +20,10 @@ namespace palpa::session {
 /// named in the record and to whoever looks on, and again when it is back.
 class SessionWatch final : public runtime::Activity {
  public:
-  SessionWatch(runtime::Executive& executive, trial::Channels& channels, runtime::StopSwitch& stop)
-      : executive_(executive), channels_(channels), stop_(stop) {}
+  /// `console`: who looks on, if anybody may.
+  SessionWatch(runtime::Executive& executive, trial::Channels& channels, runtime::StopSwitch& stop,
+               const live::LiveSession* console = nullptr)
+      : executive_(executive), channels_(channels), stop_(stop), console_(console) {}
   const char* name() const override { return "watch"; }
   std::int64_t step(std::int64_t now_ns) override;
 
@@ -33,6 +36,7 @@ class SessionWatch final : public runtime::Activity {
   runtime::Executive& executive_;
   trial::Channels& channels_;
   runtime::StopSwitch& stop_;
+  const live::LiveSession* const console_;
   std::atomic<bool> window_lost_{false};
   os::InterruptNote note_;
   runtime::Executive::Stuck stuck_;  ///< as last named

@@ -72,7 +72,8 @@ struct UserRequest {
   /// Of a void; of a grade: what was said, as the task writes it down; of a choice: the key, "1" to
   /// "8"; of a note or of what a part of the computer has to say: its text
   std::string reason;
-  double at_s = 0;  ///< of a note: the session time it is about
+  /// Of a note: the session time it is about. Of a remark: 1 where the report is to say it
+  double at_s = 0;
 };
 
 /// Between task, scene and whoever asks for something: one writer, one reader each.

@@ -200,7 +200,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
     case UserCommand::note:
       return report(now_ns, EventKind::note, reason, request.at_s);
     case UserCommand::remark:
-      return report(now_ns, EventKind::computer, reason);
+      return report(now_ns, EventKind::computer, reason, request.at_s);
     case UserCommand::done:
     case UserCommand::grade:
     case UserCommand::choose:

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# desktop_gone.sh PROGRAM: sessions in real time whose X server dies or hangs, whose window another
-# program destroys, whose terminal hangs up. Each ends in order, with report and table.
+# desktop_gone.sh PROGRAM PRESS: sessions in real time whose X server dies or hangs, whose window
+# another program destroys, whose terminal hangs up. Each ends in order, with report and table.
+# PRESS: presses a session's emergency stop by its socket.
 # PALPA_FULL=1: 50 of each; otherwise one, and of the two ways to lose a window one.
 set -uo pipefail
-palpa=$1
+palpa=$1 press=$2
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../package/expect.sh"
 for tool in Xvfb xdotool; do
@@ -39,24 +40,33 @@ begin() {   # a session of a simulated expert, in a window of a display of its o
   until_true 20 test -s "$work/display"
   export DISPLAY=:$(cat "$work/display")
   "$palpa" paracentesis --display window --operator expert --trials 9 --quiet --out "$out" \
-    >"$out.said" 2>&1 &
+    --live "$out.live" >"$out.said" 2>&1 &
   program=$!
   until_true 120 test -s "$out/session.palpa"
   sleep 2
 }
 
-finished() {   # WORDS: the program ends by itself; nothing is owed
+finished() {   # WORDS [pressed]: the program ends by itself; nothing is owed
   until_true 90 over
   wait $program
   local code=$?
   expect "$1: ends in order" test $code = 0
   expect "$1: report" test -s "$out/report.html"
   expect "$1: table" test -s "$out/trials.csv"
-  expect "$1: nobody pressed the emergency stop" bash -c \
+  [ "${2:-}" = pressed ] || expect "$1: nobody pressed the emergency stop" bash -c \
     "! grep -qi 'emergency stop' '$out/report.html'"
   [ $code = 0 ] || tail -n 5 "$out.said"
   kill -KILL $server 2>/dev/null
   wait $server 2>/dev/null
+}
+
+stopped() {   # from the tick that carries the stop on there is no force
+  "$palpa" export "$out/session.palpa" --out "$out.csv" >/dev/null && awk -F, '
+    NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+    $at["emergency_stop"] != 0 { ++ticks }
+    ticks && ($at["emergency_stop"] == 0 || $at["f_command_D_x_N"] != 0 ||
+              $at["f_command_D_y_N"] != 0 || $at["f_command_D_z_N"] != 0) { exit bad = 1 }
+    END { exit bad || ticks < 1000 }' "$out.csv"
 }
 
 window() { xdotool search --onlyvisible --name '^Palpa$' | head -n 1; }
@@ -83,7 +93,11 @@ for number in $(seq $sessions); do
   begin "hung-$number"
   kill -STOP $server
   sleep 1
+  expect "X server hangs: the stop is confirmed" "$press" "$out.live"
+  sleep 3
   kill -TERM $program
-  finished "X server hangs"
+  finished "X server hangs" pressed
+  expect "X server hangs: no force after the stop" stopped
+  expect "X server hangs: it is named" grep -q 'the picture does not answer' "$out/report.html"
 done
 finish

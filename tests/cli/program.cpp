@@ -47,7 +47,8 @@ void limitFiles() {
 }
 
 [[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,
-                         const fs::path& out, const fs::path& err, int fill) {
+                         const fs::path& out, const fs::path& err, const Environment& more,
+                         int fill) {
   // Fresh memory holds another byte in every run: what is read before it is written then differs.
   ::setenv("MALLOC_PERTURB_", std::to_string(fill).c_str(), 1);
   for (const int asks : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2})
@@ -57,6 +58,7 @@ void limitFiles() {
   redirect(err, STDERR_FILENO);
   if (::chdir(folder.c_str()) != 0) ::_exit(126);
   ::unsetenv("DISPLAY");
+  for (const auto& [name, value] : more) ::setenv(name.c_str(), value.c_str(), 1);
   keepApart(folder);
   limitFiles();
   arguments.insert(arguments.begin(), PALPA_PROGRAM);
@@ -67,6 +69,8 @@ void limitFiles() {
   ::_exit(127);
 }
 
+int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+
 fs::path newFolder() {
   static std::atomic<int> count{0};
   return fs::temp_directory_path() /
@@ -75,12 +79,12 @@ fs::path newFolder() {
 
 /// Starts the program; every run is filled with another byte.
 pid_t start(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& out,
-            const fs::path& err) {
+            const fs::path& err, const Environment& more = {}) {
   static std::atomic<int> runs{0};
   const int fill = 1 + 37 * runs++ % 255;
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) become(arguments, folder, out, err, fill);
+  if (child == 0) become(arguments, folder, out, err, more, fill);
   return child;
 }
 
@@ -92,14 +96,22 @@ int Outcome::errLines() const {
 }
 
 Running::Running(const std::vector<std::string>& arguments, const fs::path& folder,
-                 const fs::path& err)
-    : child_(start(arguments, folder, "/dev/null", err)) {}
+                 const fs::path& err, const Environment& more)
+    : child_(start(arguments, folder, "/dev/null", err, more)) {}
 
 Running::~Running() { kill(); }
 
 bool Running::ended() {
-  if (child_ > 0 && ::waitpid(child_, nullptr, WNOHANG) == child_) child_ = -1;
+  int status = 0;
+  if (child_ > 0 && ::waitpid(child_, &status, WNOHANG) == child_) {
+    child_ = -1;
+    code_ = codeOf(status);
+  }
   return child_ < 0;
+}
+
+void Running::send(int signal) const {
+  if (child_ > 0) ::kill(child_, signal);
 }
 
 int Running::interrupt(int signal) {
@@ -110,8 +122,9 @@ int Running::interrupt(int signal) {
   while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
   child_ = -1;
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  return code_ = codeOf(status);
 }
+
 void Running::kill() {
   if (child_ < 0) return;
   ::kill(child_, SIGKILL);
@@ -127,8 +140,7 @@ Outcome palpa(const std::vector<std::string>& arguments, const fs::path& folder)
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, contentOf(out), contentOf(err)};
+  return {codeOf(status), contentOf(out), contentOf(err)};
 }
 
 Folder::Folder() : path_(newFolder()) { fs::create_directories(path_); }
@@ -155,6 +167,22 @@ std::vector<std::string> Folder::files() const {
 std::string contentOf(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::string benchLens() {
+  const auto camera = nlohmann::json::parse(
+      contentOf(fs::path(PALPA_SOURCE_DIR) / "assets/stations/virtual_bench.json"))["camera"];
+  const auto list = [](const nlohmann::json& of, const std::vector<const char*>& names) {
+    std::string all;
+    for (const char* name : names)
+      all += (all.empty() ? "" : ", ") + (of.contains(name) ? of[name].dump() : std::string(name));
+    return all;
+  };
+  return "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n"
+         "  rows: 3\n  cols: 3\n  dt: d\n  data: [" +
+         list(camera, {"fx_px", "0.", "cx_px", "0.", "fy_px", "cy_px", "0.", "0.", "1."}) +
+         "]\ndistortion_coefficients: !!opencv-matrix\n  rows: 5\n  cols: 1\n  dt: d\n  data: [" +
+         list(camera["distortion"], {"k1", "k2", "p1", "p2", "k3"}) + "]\n";
 }
 
 std::string quickStation(const std::string& shipped) {

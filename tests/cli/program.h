@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace palpa::cli_test {
@@ -17,12 +18,16 @@ struct Outcome {
 /// Runs the built `palpa` with these arguments, in `folder`, without a display; waits for its end.
 Outcome palpa(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
+/// Names and values.
+using Environment = std::vector<std::pair<std::string, std::string>>;
+
 /// A run of `palpa` that goes on while the test does; killed at the end of its life, if it still
-/// runs. Its standard error goes to the file `err`.
+/// runs. Its standard error goes to the file `err`. `more`: in its environment, besides this
+/// process's.
 class Running {
  public:
   Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-          const std::filesystem::path& err = "/dev/null");
+          const std::filesystem::path& err = "/dev/null", const Environment& more = {});
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
@@ -32,9 +37,11 @@ class Running {
   /// With this signal (default: as Ctrl-C does), and waits for its end; its exit code, 128 + signal
   /// when that killed it
   int interrupt(int signal = 2);
+  void send(int signal) const;            ///< and goes on
+  int exitCode() const { return code_; }  ///< once it has ended; 128 + signal when that killed it
 
  private:
-  int child_ = -1;
+  int child_ = -1, code_ = -1;
 };
 
 /// A folder of its own for one test, empty at the start, gone at the end.
@@ -61,6 +68,9 @@ inline bool says(const std::string& text, const std::string& words) {
 }
 
 std::string contentOf(const std::filesystem::path& file);
+
+/// The lens of the shipped virtual bench's camera, as OpenCV writes one down.
+std::string benchLens();
 
 /// A trial's seed with which the simulated expert is done soon, in 13 s of session time; so he is
 /// with the one before.

@@ -207,18 +207,7 @@ TEST(StationSession, ARecordedVideoIsACameraAgain) {
       palpa(session({"--seed", kShortTrial, "--record-video", "--out", "A"}), here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(ordinary().here / "A/trials.csv"));
-  const nlohmann::json camera = benchStation()["camera"];
-  const auto number = [&](const char* name) { return std::to_string(camera[name].get<double>()); };
-  const nlohmann::json& k = camera["distortion"];
-  here.file("lens.yml",
-            "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n "
-            " rows: 3\n  cols: 3\n  dt: d\n  data: [" +
-                number("fx_px") + ", 0., " + number("cx_px") + ", 0., " + number("fy_px") + ", " +
-                number("cy_px") +
-                ", 0., 0., 1.]\ndistortion_coefficients: !!opencv-matrix\n  rows: 5\n  cols: 1\n  "
-                "dt: d\n  data: [" +
-                k["k1"].dump() + ", " + k["k2"].dump() + ", " + k["p1"].dump() + ", " +
-                k["p2"].dump() + ", " + k["k3"].dump() + "]\n");
+  here.file("lens.yml", benchLens());
   outcome = palpa(session({"--seed", kShortTrial, "--camera", "A/camera.mjpeg", "--intrinsics",
                            "lens.yml", "--board", "tags:6x4:0.030:0.0075", "--out", "B"}),
                   here.path());

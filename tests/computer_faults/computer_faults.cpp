@@ -14,6 +14,9 @@
 #include <cstring>
 #include <ctime>
 
+#include "falcon_on_a_cable.h"
+#include "hung_calls.h"
+
 /// Answers of the system and of libusb with one thing wrong: PALPA_FAULT says which. Everything
 /// else goes through to whom it was meant for.
 namespace {
@@ -56,7 +59,10 @@ Result refused(int error) {
   return -1;
 }
 
-bool hasUsbDevice() { return isFault("usb denied") || isFault("usb busy") || isFault("usb mute"); }
+bool hasUsbDevice() {
+  return isFault("usb denied") || isFault("usb busy") || isFault("usb mute") ||
+         palpa::test::hasFalcon();
+}
 thread_local timespec promised;  // what a thread was promised when it went to sleep
 thread_local bool wakes = false;
 bool wakesInTime() { return isFault("no real time") || isFault("no locked memory"); }
@@ -142,42 +148,48 @@ int access(const char* path, int mode) noexcept {
 // A drive that fails while a program writes, or that is full then.
 ssize_t write(int file, const void* bytes, size_t count) {
   static auto* real = original<ssize_t(int, const void*, size_t)>("write");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, true);
   return error ? refused<ssize_t>(error) : real(file, bytes, count);
 }
 
 ssize_t writev(int file, const iovec* parts, int count) {
   static auto* real = original<ssize_t(int, const iovec*, int)>("writev");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, true);
   return error ? refused<ssize_t>(error) : real(file, parts, count);
 }
 
 ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
   static auto* real = original<ssize_t(int, const void*, size_t, off_t)>("pwrite");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, true);
   return error ? refused<ssize_t>(error) : real(file, bytes, count, at);
 }
 
 ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) {
   static auto* real = original<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, true);
   return error ? refused<ssize_t>(error) : real(file, bytes, count, at);
 }
 
 int fsync(int file) {
   static auto* real = original<int(int)>("fsync");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, false);
   return error ? refused<int>(error) : real(file);
 }
 
 int fdatasync(int file) {
   static auto* real = original<int(int)>("fdatasync");
+  palpa::test::waitWhileHung(file);
   const int error = driveError(file, false);
   return error ? refused<int>(error) : real(file);
 }
 
 // A Falcon on a cable: its kernel node belongs to somebody else, or another program has it, or it
-// says nothing.
+// says nothing; or all is well with it.
 ssize_t libusb_get_device_list(libusb_context* context, libusb_device*** list) {
   static auto* real =
       original<ssize_t(libusb_context*, libusb_device***)>("libusb_get_device_list");
@@ -229,6 +241,7 @@ int libusb_control_transfer(libusb_device_handle* opened, std::uint8_t type, std
   static auto* real =
       original<int(libusb_device_handle*, std::uint8_t, std::uint8_t, std::uint16_t, std::uint16_t,
                    unsigned char*, std::uint16_t, unsigned)>("libusb_control_transfer");
+  if (palpa::test::hasFalcon()) palpa::test::falconControl(request, value);
   return hasUsbDevice() ? length : real(opened, type, request, value, index, data, length, timeout);
 }
 int libusb_bulk_transfer(libusb_device_handle* opened, unsigned char endpoint, unsigned char* data,
@@ -237,7 +250,14 @@ int libusb_bulk_transfer(libusb_device_handle* opened, unsigned char endpoint, u
       original<int(libusb_device_handle*, unsigned char, unsigned char*, int, int*, unsigned)>(
           "libusb_bulk_transfer");
   if (!hasUsbDevice()) return real(opened, endpoint, data, length, moved, timeout);
+  palpa::test::waitWhileHung("usb");
   const bool in = endpoint & LIBUSB_ENDPOINT_IN;
+  if (palpa::test::hasFalcon()) {
+    const std::span<std::uint8_t> bytes(data, static_cast<std::size_t>(length));
+    if (!in) palpa::test::falconOut(bytes);
+    *moved = in ? palpa::test::falconIn(bytes) : length;
+    return LIBUSB_SUCCESS;
+  }
   *moved = in ? 0 : length;
   return in ? LIBUSB_ERROR_TIMEOUT : LIBUSB_SUCCESS;
 }

@@ -104,6 +104,19 @@ TEST(Port, WhatIsLeftIsToldWhenTheSessionEnds) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+/// (Whose thread hangs: HungPartSession, in tests/cli.)
+TEST(Port, EndsOnceAndIsNotSilentBefore) {
+  Told told;
+  Peer peer(told.path);
+  fill(told.log, 10);
+  ASSERT_TRUE(peer.getsEntries(10));
+  EXPECT_FALSE(told.port.silentFor(60s));
+  EXPECT_TRUE(told.port.end());
+  EXPECT_TRUE(told.port.end());
+  EXPECT_TRUE(peer.isLeft());
+  EXPECT_TRUE(eventually([&] { return told.port.silentFor(1ms); }));
+}
+
 /// The session goes on, what waits for that peer stays small, and in the end it is left.
 TEST(Port, APeerThatNeverReadsIsLeft) {
   Told told(300ms);

@@ -1,9 +1,11 @@
 // Eight stations, each a process of its own, write 200 trials at once; writers are killed, the
 // server goes away and comes back: no trial lost, none twice.
 #include <algorithm>
+#include <chrono>
 #include <set>
 
 #include "anatomy/base/random.h"
+#include "apps/record/store/sql_connection.h"
 #include "apps/runtime/clock.h"
 #include "tests/store/stores.h"
 #include "tests/store/writer_process.h"
@@ -140,6 +142,30 @@ TEST_P(Stations, OfTheSameNewTraineeOneIsAdded) {
   }
   EXPECT_EQ(added, 1);
   EXPECT_EQ(refused, kStations - 1);
+}
+
+/// One that takes a request and says nothing is given up; one that takes its time over a long
+/// answer is not.
+TEST_P(ServerStations, OneThatSaysNothingIsGivenUp) {
+  const auto asked = openPostgres(url, Access::write, std::chrono::seconds(2));
+  EXPECT_EQ(
+      asked->query("SELECT repeat('x', 20000), pg_sleep(0.3) FROM generate_series(1, 10)").size(),
+      10u);
+  const auto expectGivenUp = [](auto ask) {
+    try {
+      ask();
+      ADD_FAILURE() << "was waited for";
+    } catch (const StoreUnreachable& e) {
+      EXPECT_NE(std::string(e.what()).find("does not answer"), std::string::npos) << e.what();
+    }
+  };
+  expectGivenUp([&] { asked->query("SELECT pg_sleep(3600)"); });
+  expectGivenUp([&] { asked->query("SELECT 1"); });
+  const auto writing = openPostgres(url, Access::write, std::chrono::seconds(2));
+  expectGivenUp([&] {
+    SqlTransaction transaction(*writing);
+    writing->query("SELECT pg_sleep(3600)");
+  });
 }
 
 }  // namespace

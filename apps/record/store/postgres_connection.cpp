@@ -1,6 +1,11 @@
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
+#include <mutex>
+#include <thread>
 
+#include "apps/os/real_time.h"
+#include "apps/os/socket.h"
 #include "apps/record/store/postgres_library.h"
 #include "apps/record/store/sql_connection.h"
 
@@ -46,9 +51,86 @@ std::string exactly(double value) {
   return text;
 }
 
+/// Hangs up on a server that has taken a request and says nothing: libpq waits for ever there.
+class SilenceWatch {
+ public:
+  explicit SilenceWatch(std::chrono::milliseconds most) : most_(most) {}
+  ~SilenceWatch() {
+    change([this] { over_ = true; });
+    if (thread_.joinable()) thread_.join();
+  }
+  SilenceWatch(const SilenceWatch&) = delete;
+  SilenceWatch& operator=(const SilenceWatch&) = delete;
+
+  /// While it lives, an answer is waited for.
+  class Request {
+   public:
+    Request(SilenceWatch& watch, int socket) : watch_(watch) {
+      watch_.change([&] { watch_.socket_ = socket, ++watch_.request_; });
+    }
+    ~Request() {
+      watch_.change([this] { watch_.socket_ = -1; });
+    }
+    Request(const Request&) = delete;
+    Request& operator=(const Request&) = delete;
+
+   private:
+    SilenceWatch& watch_;
+  };
+  bool hasHungUp() {
+    const std::lock_guard lock(mutex_);
+    return hung_up_;
+  }
+
+ private:
+  template <typename Change>
+  void change(Change to) {
+    {
+      const std::lock_guard lock(mutex_);
+      to();
+      if (!over_ && !thread_.joinable()) thread_ = os::startThread([this] { run(); });
+    }
+    changed_.notify_all();
+  }
+
+  void run() {
+    std::unique_lock lock(mutex_);
+    while (!over_) {
+      if (socket_ < 0)
+        changed_.wait(lock, [this] { return over_ || socket_ >= 0; });
+      else
+        watch(lock);
+    }
+  }
+
+  /// Of one request, as long as bytes come.
+  void watch(std::unique_lock<std::mutex>& lock) {
+    const auto over = [this, request = request_] {
+      return over_ || socket_ < 0 || request_ != request;
+    };
+    for (std::chrono::milliseconds wait = most_; !changed_.wait_for(lock, wait, over);) {
+      const std::chrono::milliseconds silent = os::silentSince(socket_).value_or(most_);
+      wait = most_ - silent;
+      if (silent < most_) continue;
+      os::endBoth(socket_);
+      hung_up_ = true;
+      socket_ = -1;
+    }
+  }
+
+  const std::chrono::milliseconds most_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int socket_ = -1;  ///< on which an answer is waited for
+  std::uint64_t request_ = 0;
+  bool over_ = false, hung_up_ = false;
+  std::thread thread_;
+};
+
 class PostgresConnection final : public SqlConnection {
  public:
-  PostgresConnection(std::string url, Access access) : url_(std::move(url)) {
+  PostgresConnection(std::string url, Access access, std::chrono::milliseconds silence)
+      : url_(std::move(url)), silence_(silence) {
     guarded([&] {
       const char* only_read =
           access == Access::read ? "&options=-c%20default_transaction_read_only%3Don" : "";
@@ -85,6 +167,7 @@ class PostgresConnection final : public SqlConnection {
   }
   void rollback() noexcept override {
     try {
+      const SilenceWatch::Request request(silence_, connection_->sock());
       work_.reset();
     } catch (...) {  // the server rolls back by itself
     }
@@ -147,8 +230,10 @@ class PostgresConnection final : public SqlConnection {
   template <typename Action>
   auto guarded(Action action) -> decltype(action()) {
     try {
+      const SilenceWatch::Request request(silence_, connection_ ? connection_->sock() : -1);
       return action();
     } catch (const pqxx::broken_connection& e) {
+      if (silence_.hasHungUp()) throw StoreUnreachable("does not answer", place(), remedyFor(""));
       const std::string reason = firstLine(e.what());
       if (isRefusal(reason))
         throw Error("refuses the connection (" + reason + ")", place(), remedyFor(reason));
@@ -179,14 +264,16 @@ class PostgresConnection final : public SqlConnection {
   }
 
   const std::string url_;
+  SilenceWatch silence_;
   std::unique_ptr<pqxx::connection> connection_;
   std::unique_ptr<pqxx::work> work_;
 };
 
 }  // namespace
 
-std::unique_ptr<SqlConnection> openPostgres(const std::string& url, Access access) {
-  return std::make_unique<PostgresConnection>(url, access);
+std::unique_ptr<SqlConnection> openPostgres(const std::string& url, Access access,
+                                            std::chrono::milliseconds silence) {
+  return std::make_unique<PostgresConnection>(url, access, silence);
 }
 
 }  // namespace palpa::record

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -92,6 +93,9 @@ std::unique_ptr<SqlConnection> connectToRead(const std::string& url);
 
 enum class Access { write, read };
 std::unique_ptr<SqlConnection> openSqlite(const std::string& file, Access access);
-std::unique_ptr<SqlConnection> openPostgres(const std::string& url, Access access);
+/// `silence`: a server that answers a request with nothing for so long is given up.
+std::unique_ptr<SqlConnection> openPostgres(
+    const std::string& url, Access access,
+    std::chrono::milliseconds silence = std::chrono::seconds(20));
 
 }  // namespace palpa::record
