@@ -231,6 +231,13 @@ constexpr const char* kNoMemory =
     "there is not enough memory for this. Close other programs, allow palpa more (ulimit -v), or "
     "give it something smaller";
 
+/// Of a file that was to be read, made, renamed or removed.
+std::string whyUnused(const std::error_code& code) {
+  const bool forbidden =
+      code == std::errc::permission_denied || code == std::errc::operation_not_permitted;
+  return forbidden ? "you may not do this with it" : whyUnread(code);
+}
+
 /// `file`: what it was about; empty: not known.
 std::string refusedBySystem(const std::string& file, const std::error_code& code, bool verbose) {
   if (code == std::errc::not_enough_memory) return kNoMemory;
@@ -243,7 +250,7 @@ std::string refusedBySystem(const std::string& file, const std::error_code& code
       file.empty()
           ? "the system refuses something (" + fileTrouble(code.value()).why +
                 "). See to that, then try again"
-          : file + ": cannot be used (" + whyUnread(code) + "). Check its name, and who may use it";
+          : file + ": cannot be used (" + whyUnused(code) + "). Check its name, and who may use it";
   return verbose ? words + "; the system said: " + code.message() : words;
 }
 

@@ -42,7 +42,8 @@ std::error_code createNew(const fs::path& file) {
 
 namespace {
 
-/// Nothing but a file of this user's; whoever put another's, a link or a pipe there gets nothing.
+/// Nothing but a file, and where it must be `own` one of this user's; whoever put a link or a pipe
+/// there gets nothing.
 std::error_code useOne(const fs::path& file, int flags, bool own, const std::string& text) {
   const int descriptor = ::open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return lastError();

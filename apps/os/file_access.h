@@ -10,10 +10,11 @@ namespace palpa::os {
 /// Makes an empty file that this user alone may read. std::errc::file_exists where the name is
 /// taken, also by a link, or by another process a moment ago: what is there stays as it is.
 std::error_code createNew(const std::filesystem::path& file);
-/// The same, unless there is one: that stays as it is, and must be a file that is this user's own,
-/// and writable. std::errc::too_many_symbolic_link_levels for a link, which is never followed.
+/// The same, unless there is one: that stays as it is, whoever's it is, and must be a file that
+/// this user may write. std::errc::too_many_symbolic_link_levels for a link, which is never
+/// followed.
 std::error_code createPrivate(const std::filesystem::path& file);
-/// Writes `text` behind what such a file holds.
+/// Writes `text` behind what such a file holds, where it is this user's own.
 std::error_code appendPrivate(const std::filesystem::path& file, const std::string& text);
 /// Makes a folder and those above it that are missing, for this user alone. Those that are there
 /// stay as they are.

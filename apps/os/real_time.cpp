@@ -67,7 +67,8 @@ MemoryLock::MemoryLock() {
   const bool whole = mayLockWithoutBound();
   locked_ = mlockall(whole ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0;
   if (!locked_)
-    words_ = "memory not locked: refused" + because(errno);
+    words_ = "memory not locked: refused" +
+             (errno == ENOMEM ? " (beyond this user's limit, ulimit -l)" : because(errno));
   else if (whole)
     words_ = "memory locked";
   else

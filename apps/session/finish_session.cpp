@@ -153,22 +153,24 @@ std::vector<trial::SavedPicture> picturesIn(const std::vector<runtime::Event>& e
   return pictures;
 }
 
-ReportTail tailOf(const LeftSession& session, bool again) {
+constexpr char kProgramEnded[] =
+    "The session's program ended before its report: this was made from the evidence by palpa "
+    "finish";
+constexpr char kMadeAgain[] = "It was made again from the evidence by palpa finish";
+
+/// `made`: how the report came about.
+ReportTail tailOf(const LeftSession& session, const std::string& made) {
   const std::vector<runtime::Event> events = session.reader.events();
   SessionRun run;
   std::copy_if(events.begin(), events.end(), std::back_inserter(run.safety_events),
                trial::isForTheReport);
   ReportTail tail{picturesIn(events, session.folder), {}};
   tail.notes.push_back(
-      {"This report",
-       again ? "It was made again from the evidence by palpa finish"
-             : "The session's program ended before its report: this was made from the evidence by "
-               "palpa finish",
-       "what only the running program knew, as its lateness, is not told"});
+      {"This report", made, "what only the running program knew, as its lateness, is not told"});
   for (const record::RecordedTrial& trial : session.trials)
     if (!trial.ended)
       tail.notes.push_back({"Trial " + std::to_string(trial.header.trial), "was not finished",
-                            "the program stopped in the middle of it: it is not scored"});
+                            "the session broke off in the middle of it: it is not scored"});
   for (report::Fact& fact : runNotes(run)) tail.notes.push_back(std::move(fact));
   return tail;
 }
@@ -201,9 +203,9 @@ void writePalpation(const LeftSession& session, const ReportHead& head, const Re
       scoring, tail, session.evidence);
 }
 
-void writeReportOf(const LeftSession& session, bool again) {
+void writeReportOf(const LeftSession& session, const std::string& made) {
   const ReportHead head = headIn(session.reader.info(), session.evidence.string());
-  const ReportTail tail = tailOf(session, again);
+  const ReportTail tail = tailOf(session, made);
   switch (evidence::engineOf(session.reader)) {
     case Engine::needle:
       return writeNeedle(session, head, tail);
@@ -235,6 +237,22 @@ std::string recordsNotedFor(const std::string& uuid) {
   return "";
 }
 
+/// Report and table, both or none.
+void makeFiles(const LeftSession& session, const std::string& made) {
+  const BegunSession held(session.folder);
+  WrittenTogether written;
+  writeReportOf(session, made);
+  written.keep();
+}
+
+void deliverNoted(const std::string& records, const fs::path& folder) {
+  if (records.empty()) return;
+  SessionOptions delivered;
+  delivered.records = records;
+  delivered.quiet = true;
+  deliverSession(delivered, folder);
+}
+
 void sayFinished(const LeftSession& session) {
   const std::size_t ended = session.ended(), open = session.trials.size() - ended;
   std::printf("%s judged from the evidence%s\n", counted(ended, "trial").c_str(),
@@ -261,18 +279,21 @@ void finishSession(const fs::path& given, FinishAgain again) {
     return;
   }
   if (owesFiles(folder) || anew) {
-    const bool was_there = !owesFiles(folder);
-    const BegunSession held(folder);
-    WrittenTogether written;
-    writeReportOf(session, was_there);
-    written.keep();
+    makeFiles(session, owesFiles(folder) ? kProgramEnded : kMadeAgain);
     sayFinished(session);
   }
-  if (records.empty()) return;
-  SessionOptions delivered;
-  delivered.records = records;
-  delivered.quiet = true;
-  deliverSession(delivered, folder);
+  deliverNoted(records, folder);
+}
+
+void reportFailed(const fs::path& folder, const std::string& why) noexcept {
+  try {
+    const LeftSession session(wholePath(folder) / kEvidenceName);
+    if (session.ended() == 0 || !owesFiles(folder)) return;
+    makeFiles(session, "The session failed: " + why.substr(0, why.find('\n')) +
+                           ". This was made from its evidence");
+    deliverNoted(recordsNotedFor(session.reader.info().uuid), session.folder);
+  } catch (const std::exception&) {  // palpa finish says why it cannot
+  }
 }
 
 }  // namespace palpa::session

@@ -40,4 +40,8 @@ enum class FinishAgain { no, yes };
 /// Error where its evidence is damaged.
 void finishSession(const std::filesystem::path& session, FinishAgain again);
 
+/// The same of a session that failed in the middle, by the session itself, with the reason in the
+/// report; nothing where no trial had ended, or where it cannot be made: it is owed then.
+void reportFailed(const std::filesystem::path& folder, const std::string& why) noexcept;
+
 }  // namespace palpa::session

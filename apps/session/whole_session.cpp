@@ -1,10 +1,7 @@
 #include "apps/session/whole_session.h"
 
-#include <algorithm>
-
 #include "anatomy/base/error.h"
 #include "apps/os/signals.h"
-#include "apps/record/session_file.h"
 #include "apps/session/finish_session.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
@@ -19,30 +16,21 @@ using training::Engine;
 
 namespace {
 
-/// Of a session that failed in the middle: report and table of the trials that had ended.
-void reportWhatCame(const std::filesystem::path& folder) noexcept {
-  try {
-    const auto trials = record::SessionReader(folder / "session.palpa").trials();
-    if (std::any_of(trials.begin(), trials.end(), [](const auto& t) { return t.ended; }))
-      finishSession(folder, FinishAgain::no);
-  } catch (const std::exception&) {  // palpa finish says why it cannot
-  }
-}
-
 /// `hold` leaves all of a session in its folder; true: somebody ended it early.
 template <class Hold>
 SessionLeft heldIn(const SessionOptions& options, Hold hold) {
   OutputFolder output(options.out, options.command);
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();
+  const bool is_first = !std::filesystem::exists(folder / "session.palpa");
   try {
     const BegunSession begun(folder);
     const bool quit = hold(folder);
     output.keep();
     deliverSession(options, folder);
     return {folder, quit};
-  } catch (...) {
-    reportWhatCame(folder);
+  } catch (const std::exception& e) {
+    if (is_first) reportFailed(folder, e.what());  // another's is its own matter
     throw;
   }
 }

@@ -72,7 +72,10 @@ void TrialTask::checkReady(std::int64_t now_ns) {
   const std::string words = missing(now_ns);
   status_.notice = words.empty() ? "" : "Not ready: " + words;
   if (!words.empty() && lead_.automatic && isTooLong(now_ns)) {
-    report(now_ns, EventKind::computer, "No trial could begin: " + words, 1);
+    report(
+        now_ns, EventKind::computer,
+        (status_.trial > 0 ? "No further trial could begin: " : "No trial could begin: ") + words,
+        1);
     throw Error(words, "ready check", "Look at the station: device, camera, board");
   }
   if (!words.empty()) return;

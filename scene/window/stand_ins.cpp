@@ -44,18 +44,25 @@ struct WindowSize {
   int width = 1, height = 1;
 };
 
-std::mutex sizes_mutex;
-std::map<XID, WindowSize> sizes;
+/// Never destroyed: Mesa's own end, and a thread that was left behind, ask after everything else.
+struct WindowSizes {
+  std::mutex mutex;
+  std::map<XID, WindowSize> all;
+};
+WindowSizes& sizes() {
+  static auto& kept = *new WindowSizes;
+  return kept;
+}
 
 void keep(XID window, WindowSize size) {
-  const std::lock_guard lock(sizes_mutex);
-  sizes[window] = size;
+  const std::lock_guard lock(sizes().mutex);
+  sizes().all[window] = size;
 }
 
 WindowSize kept(XID window) {
-  const std::lock_guard lock(sizes_mutex);
-  const auto found = sizes.find(window);
-  return found == sizes.end() ? WindowSize{} : found->second;
+  const std::lock_guard lock(sizes().mutex);
+  const auto found = sizes().all.find(window);
+  return found == sizes().all.end() ? WindowSize{} : found->second;
 }
 
 template <class Function>

@@ -136,8 +136,9 @@ TEST(Finish, ASessionThatFailsInTheMiddleHasMadeItsReportItself) {
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_TRUE(says(outcome.err, "ready check")) << outcome.err;
   const Pages made(here / "A");
-  EXPECT_TRUE(says(made.table, "\n1,")) << made.table;
-  EXPECT_TRUE(says(made.report, "No trial could begin")) << outcome.out;
+  EXPECT_TRUE(says(made.table, "\nT000,1,")) << made.table;
+  EXPECT_TRUE(says(made.report, "No further trial could begin")) << outcome.out;
+  EXPECT_TRUE(says(made.report, "The session failed: ready check")) << outcome.out;
   EXPECT_TRUE(says(palpa({"finish"}, here.path()).out, "was finished")) << "nothing is owed";
 }
 
@@ -174,6 +175,9 @@ TEST(Finish, AKilledSessionIsOfferedAndOneThatRunsIsRefused) {
     EXPECT_TRUE(says(finish.err, "still running")) << finish.err;
     EXPECT_TRUE(says(palpa({"finish"}, here.path()).out, "was finished")) << "it is not left yet";
   }  // killed
+  EXPECT_TRUE(says(palpa({"finish"}, here.path()).out, "palpa finish " + (here / "A").string()));
+  EXPECT_EQ(palpa(session({"--out", "A"}), here.path()).exit_code, 1) << "another's folder";
+  EXPECT_FALSE(fs::exists(here / "A/report.html"));
   EXPECT_TRUE(says(palpa({"finish"}, here.path()).out, "palpa finish " + (here / "A").string()));
   std::vector<std::string> next = session({"--seed", kShortTrial, "--out", "B"});
   next.erase(std::find(next.begin(), next.end(), "--quiet"));

@@ -67,9 +67,7 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
   const Folder first, reference;
   ASSERT_EQ(palpa(arguments(), first.path()).exit_code, 0);  // builds the patient, which takes long
   const runtime::SteadyClock clock;
-  const std::int64_t began = clock.now();
   ASSERT_EQ(palpa(arguments(), reference.path()).exit_code, 0);
-  const auto run = static_cast<double>(clock.now() - began);
   const std::vector<FlightRecord> whole = ticksOf(reference / "A/session.palpa");
   ASSERT_GT(whole.size(), 1000u);
 
@@ -80,10 +78,14 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
     SCOPED_TRACE("kill " + std::to_string(k));
     // Spread over the run: one in each of `kills` equal parts, somewhere in it.
     const double part = (k + static_cast<double>(bits() >> 11) * 0x1p-53) / kills;
+    const auto goal = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
+    const auto later = static_cast<std::int64_t>(bits() % 20) * runtime::kMillisecond;
     const Folder here;
     const fs::path file = here / "A/session.palpa";
     Running program(arguments(), here.path());
-    clock.sleepUntil(clock.now() + static_cast<std::int64_t>(run * part));
+    while (!program.ended() && committed(file).value_or(0) < goal)
+      clock.sleepUntil(clock.now() + runtime::kMillisecond);
+    clock.sleepUntil(clock.now() + later);
     const auto before = committed(file);
     program.kill();
     const auto after = committed(file);

@@ -31,10 +31,10 @@ TEST(DoctorsComputer, LoopDiskAndDateAreJudged) {
              State::note, "normal priority");
   expectSays(judgeLoop({"SCHED_FIFO", 640, 900}, true), State::note, "will stutter");
   expectSays(judgeLoop({"SCHED_FIFO", 640, 900}, false), State::well, "virtual bench");
-  expectSays(
-      judgeLoop({"SCHED_FIFO", 1000, 40, "memory not locked: refused (Cannot allocate memory)"},
-                true),
-      State::note, "put out to disk");
+  expectSays(judgeLoop({"SCHED_FIFO", 1000, 40,
+                        "memory not locked: refused (beyond this user's limit, ulimit -l)"},
+                       true),
+             State::note, "put out to disk");
   EXPECT_GT(measureLoop().rate_Hz, 100);
   expectSays(judgeDisk({"/data", true, 50'000'000'000}), State::well, "50.0 GB free");
   expectSays(judgeDisk({"/data", true, 1'000'000'000}), State::note, "enough for some 80 trials");

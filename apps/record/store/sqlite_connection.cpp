@@ -18,7 +18,10 @@ constexpr int kWaitForOthers_ms = 20'000;          // eight stations that write 
 
 void makeFile(const std::string& file) {
   if (const std::error_code problem = os::createPrivate(file))
-    failFile("cannot be opened for writing", "records file " + file, problem);
+    failFile("cannot be opened for writing", "records file " + file, problem,
+             problem == std::errc::too_many_symbolic_link_levels
+                 ? "Or give the file itself with --records"
+                 : "");
 }
 
 /// SQLite fills up what is missing of the last page and says nothing. With a log beside, the file
