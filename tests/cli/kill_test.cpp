@@ -79,12 +79,12 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
     // Spread over the run: one in each of `kills` equal parts, somewhere in it.
     const double part = (k + static_cast<double>(bits() >> 11) * 0x1p-53) / kills;
     const auto goal = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
-    const auto later = static_cast<std::int64_t>(bits() % 20) * runtime::kMillisecond;
+    const auto later = static_cast<std::int64_t>(bits() % 50) * runtime::kMillisecond;
     const Folder here;
     const fs::path file = here / "A/session.palpa";
     Running program(arguments(), here.path());
     while (!program.ended() && committed(file).value_or(0) < goal)
-      clock.sleepUntil(clock.now() + runtime::kMillisecond);
+      clock.sleepUntil(clock.now() + 30 * runtime::kMillisecond);
     clock.sleepUntil(clock.now() + later);
     const auto before = committed(file);
     program.kill();
