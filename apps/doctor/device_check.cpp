@@ -115,8 +115,8 @@ Finding sayWatchdog(const haptics::DeviceCapabilities& device) {
     return {kWatchdog, State::well, "the device lets go by itself when the program dies"};
   return {kWatchdog, State::well,
           "the device may keep its last force when the program dies, is stopped, or hangs in its "
-          "driver: a guard process takes it away, of a driver that hangs when the session has "
-          "ended. Keep its power switch within reach"};
+          "driver: a guard process takes it away; where the driver hangs, only once the session "
+          "has ended. Keep its power switch within reach"};
 }
 
 Finding judgeSensor(const SensorFacts& facts) {

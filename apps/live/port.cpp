@@ -21,7 +21,7 @@ constexpr std::size_t kMostPeers = 8, kEntriesAtOnce = 256, kEnoughWaiting = 64 
 // Of one peer: another's turn comes, and the session's end, whatever one sends
 constexpr int kCallersAtOnce = 16, kReadsAtOnce = 16;
 constexpr int kLook_ms = 25, kQuality = 80, kWidest = 1280;
-constexpr std::chrono::milliseconds kFarewell{500}, kHung{2000};
+constexpr std::chrono::milliseconds kFarewell{500};
 
 }  // namespace
 
@@ -113,7 +113,7 @@ Port::~Port() { end(); }
 bool Port::end() {
   if (!thread_.joinable()) return true;
   line_->askToEnd();
-  const bool over = over_.wait_for(kFarewell + kHung) == std::future_status::ready;
+  const bool over = over_.wait_for(kFarewell + kLineHangs) == std::future_status::ready;
   if (over) {
     thread_.join();
   } else {

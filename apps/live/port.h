@@ -14,6 +14,10 @@
 
 namespace palpa::live {
 
+/// The port's thread gives way to all others and may wait long for its turn: that it hangs is said
+/// after so long.
+inline constexpr std::chrono::seconds kLineHangs{10};
+
 /// The session's end of the local socket: tells its log and its pictures to up to eight who look
 /// on, hears what they ask. A thread of its own at low priority; whoever is slow gets fewer
 /// pictures, who takes nothing is left, and nobody who looks on can hold the session up. Only
@@ -32,7 +36,7 @@ class Port {
   Port& operator=(const Port&) = delete;
 
   /// Tells what is left, for at most half a second. False: its thread hangs in a call and is left
-  /// behind, two seconds later; it touches neither `log` nor `received` any more.
+  /// behind, `kLineHangs` later; it touches neither `log` nor `received` any more.
   bool end();
   /// Nobody has been served for so long: its thread hangs. Any thread.
   bool silentFor(std::chrono::nanoseconds time) const;

@@ -73,9 +73,10 @@ void removeSocket(const std::string& path) {
     ::unlink(path.c_str());
 }
 
+/// In this order: while it listens, nobody else takes the name, so the file is its own.
 LocalListener::~LocalListener() {
-  ::close(socket_);
   removeSocket(path_);
+  ::close(socket_);
 }
 
 int listenAt(const std::string& path, const std::string& advice) {

@@ -97,6 +97,7 @@ std::string whyNotServed(int error) {
 
 std::string whyNotKnown(int error) {
   if (error == EAI_NONAME) return "no computer has this name";
+  if (error == EAI_NODATA || error == EAI_ADDRFAMILY) return "it has no IPv4 address";
   if (error == EAI_AGAIN) return "the service that knows names does not answer";
   return "the service that knows names refuses it, error " + std::to_string(error);
 }

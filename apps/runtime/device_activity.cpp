@@ -22,6 +22,7 @@ std::int64_t FalconActivity::step(std::int64_t now_ns) {
   opened_ = true;
   const std::int64_t due_ns = driver_.step(now_ns);
   const haptics::FalconStatus status = driver_.status();
+  may_push_.store(status.state == FalconState::ready);
   if (status.state != reported_state_ || status.problem != reported_problem_) {
     reported_state_ = status.state;
     reported_problem_ = status.problem;

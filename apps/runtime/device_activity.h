@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 #include "apps/runtime/activity.h"
 #include "apps/runtime/channels.h"
 #include "apps/runtime/flight_sink.h"
@@ -18,6 +20,8 @@ class FalconActivity final : public Activity {
   const char* name() const override { return "falcon"; }
   std::int64_t step(std::int64_t now_ns) override;
   void end() noexcept override;  ///< zero force, closed
+  /// Its last step left it ready: a force may be on it, and no step may take long. Any thread.
+  bool mayPush() const noexcept { return may_push_.load(); }
 
  private:
   haptics::FalconDriver& driver_;
@@ -25,6 +29,7 @@ class FalconActivity final : public Activity {
   haptics::FalconState reported_state_ = haptics::FalconState::closed;
   haptics::FalconProblem reported_problem_ = haptics::FalconProblem::none;
   bool opened_ = false;
+  std::atomic<bool> may_push_{false};
 };
 
 /// DEVICE: the thread that waits for a Net F/T's datagrams; `sensor` has been started. Real time

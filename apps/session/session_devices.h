@@ -51,7 +51,8 @@ class SessionDevices {
   runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }
   /// For its camera; null where recorded pictures stand for it
   twin::VirtualBench* bench() { return bench_.get(); }
-  MouseHand* mouse() { return mouse_.get(); }     ///< null: nobody leads with the mouse
+  MouseHand* mouse() { return mouse_.get(); }  ///< null: nobody leads with the mouse
+  const runtime::FalconActivity* falcon() const { return falcon_activity_.get(); }  ///< or null
   PointingHand* pointing() { return pointing_; }  ///< null: nobody points at the bench
 
   void addTo(runtime::Executive& executive);  ///< what has to run beside the loop

@@ -14,6 +14,8 @@ constexpr std::int64_t kSignalPeriod = 5 * runtime::kMillisecond;
 constexpr std::int64_t kVirtualPeriod = 50 * runtime::kMillisecond;
 constexpr std::int64_t kStuckPeriod = 250 * runtime::kMillisecond;
 constexpr std::int64_t kStuck = 2 * runtime::kSecond;
+// What may take long: a Falcon without power is greeted for 5 s, its firmware takes as long.
+constexpr std::int64_t kSlowStuck = 10 * runtime::kSecond;
 constexpr int kKeyWait_ms = 50;
 
 }  // namespace
@@ -40,15 +42,8 @@ std::string partInWords(const std::string& activity) {
 
 namespace {
 
-/// A device's motors keep what they had, whatever is asked of them.
-std::string silenceInWords(const std::string& activity) {
-  return partInWords(activity) + " does not answer" +
-         (activity == "falcon" ? " and may keep its last force: switch its power off" : "") +
-         "; all other parts go on";
-}
-
-std::string returnInWords(const std::string& activity) {
-  return partInWords(activity) + " answers again";
+bool has(const runtime::Executive::Stuck& stuck, const std::string& activity) {
+  return std::find(stuck.begin(), stuck.end(), activity) != stuck.end();
 }
 
 }  // namespace
@@ -74,18 +69,35 @@ std::int64_t SessionWatch::endSession(const char* why, std::int64_t now_ns) {
 
 void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   next_look_ns_ = now_ns + kStuckPeriod;
-  runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
-  if (console_ && console_->silentFor(std::chrono::nanoseconds(kStuck))) stuck.push_back("console");
-  const auto tell = [this](const runtime::Executive::Stuck& of,
-                           const runtime::Executive::Stuck& not_in,
-                           std::string (*words)(const std::string&), double in_report) {
-    for (const std::string& name : of)
-      if (std::find(not_in.begin(), not_in.end(), name) == not_in.end())
-        channels_.signals_to_task.push({trial::UserCommand::remark, words(name), in_report});
-  };
-  tell(stuck, stuck_, silenceInWords, 1);
-  tell(stuck_, stuck, returnInWords, 0);
+  runtime::Executive::Stuck stuck = stuckNow();
+  for (const std::string& name : stuck)
+    if (!has(stuck_, name)) tellSilent(name);
+  for (const std::string& name : stuck_)
+    if (!has(stuck, name)) tellBack(name);
   stuck_ = std::move(stuck);
+}
+
+runtime::Executive::Stuck SessionWatch::stuckNow() const {
+  runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
+  if (falcon_ && !falcon_->mayPush() && !has(executive_.stuckFor(kSlowStuck), falcon_->name()))
+    std::erase(stuck, falcon_->name());
+  if (console_ && console_->silentFor(live::kLineHangs)) stuck.push_back("console");
+  return stuck;
+}
+
+/// A device's motors keep what they had, whatever is asked of them. One that was not ready was sent
+/// no force, and is no matter for the report: its driver says what it lacks.
+void SessionWatch::tellSilent(const std::string& activity) {
+  const bool device = falcon_ && activity == falcon_->name(), pushes = device && falcon_->mayPush();
+  const std::string words = partInWords(activity) + " does not answer" +
+                            (pushes ? " and may keep its last force: switch its power off" : "") +
+                            "; all other parts go on";
+  channels_.signals_to_task.push({trial::UserCommand::remark, words, device && !pushes ? 0. : 1.});
+}
+
+void SessionWatch::tellBack(const std::string& activity) {
+  channels_.signals_to_task.push(
+      {trial::UserCommand::remark, partInWords(activity) + " answers again", 0});
 }
 
 std::int64_t StopKeyWatch::step(std::int64_t now_ns) {

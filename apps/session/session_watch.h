@@ -7,6 +7,7 @@
 #include "apps/live/live_session.h"
 #include "apps/os/signals.h"
 #include "apps/runtime/activity.h"
+#include "apps/runtime/device_activity.h"
 #include "apps/runtime/executive.h"
 #include "apps/runtime/stop_switch.h"
 #include "apps/trial/trial_status.h"
@@ -17,13 +18,19 @@ namespace palpa::session {
 /// Past whatever hangs, on a thread of its own. A signal to end (Ctrl-C, SIGTERM, a terminal that
 /// is gone) and a lost window close a session as Escape does, but the force is gone with the next
 /// tick: the trial is ended, files are written. A part that does not answer for two seconds is
-/// named in the record and to whoever looks on, and again when it is back.
+/// named in the record and to whoever looks on, and again when it is back; ten seconds are left to
+/// a device that is not ready yet, as its firmware is sent in one step, and to the console's line,
+/// which gives way to all others.
 class SessionWatch final : public runtime::Activity {
  public:
-  /// `console`: who looks on, if anybody may.
+  /// `falcon`: the device, if it is one. `console`: who looks on, if anybody may.
   SessionWatch(runtime::Executive& executive, trial::Channels& channels, runtime::StopSwitch& stop,
-               const live::LiveSession* console = nullptr)
-      : executive_(executive), channels_(channels), stop_(stop), console_(console) {}
+               const runtime::FalconActivity* falcon, const live::LiveSession* console)
+      : executive_(executive),
+        channels_(channels),
+        stop_(stop),
+        falcon_(falcon),
+        console_(console) {}
   const char* name() const override { return "watch"; }
   std::int64_t step(std::int64_t now_ns) override;
 
@@ -32,10 +39,14 @@ class SessionWatch final : public runtime::Activity {
  private:
   std::int64_t endSession(const char* why, std::int64_t now_ns);
   void nameTheStuck(std::int64_t now_ns);
+  runtime::Executive::Stuck stuckNow() const;
+  void tellSilent(const std::string& activity);
+  void tellBack(const std::string& activity);
 
   runtime::Executive& executive_;
   trial::Channels& channels_;
   runtime::StopSwitch& stop_;
+  const runtime::FalconActivity* const falcon_;
   const live::LiveSession* const console_;
   std::atomic<bool> window_lost_{false};
   os::InterruptNote note_;

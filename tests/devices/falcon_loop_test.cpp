@@ -86,6 +86,7 @@ struct Session {
 TEST(FalconLoop, NoForceUntilHomedThenTheTissuesForce) {
   Session s;
   s.runUntil(20 * kMs);
+  EXPECT_FALSE(s.falcon.mayPush());
   EXPECT_EQ(s.tick().f_command_D, (Packed3{0, 0, 0}));
   EXPECT_EQ(s.last.safety, haptics::SafetyCause::not_ready);
   s.station.twin.startFirmware();
@@ -110,12 +111,14 @@ TEST(FalconLoop, UnpluggedInMidSessionTheForceGoesAndComesBack) {
   s.tick();
   ASSERT_GT(s.pushed, 0);
   s.notices();
+  EXPECT_TRUE(s.falcon.mayPush());
   s.station.usb.unplug();
   const std::int64_t pulled = s.end_ns;
   s.runUntil(pulled + 30 * kMs);
   EXPECT_EQ(s.tick().f_command_D, (Packed3{0, 0, 0}));
   EXPECT_EQ(s.last.safety, haptics::SafetyCause::not_ready);
   ASSERT_FALSE(s.notices().empty());
+  EXPECT_FALSE(s.falcon.mayPush());
   s.station.twin.powerOff();  // it forgets firmware and homing
   s.station.usb.plugged = true;
   s.runUntil(pulled + 20'000 * kMs);

@@ -118,11 +118,15 @@ std::string PostgresServer::url(const std::string& user, const std::string& data
   return "postgresql://" + user + "@127.0.0.1:" + std::to_string(port_) + "/" + database;
 }
 
+std::string PostgresServer::localUrl() const {
+  return "postgresql://palpa@/palpa?host=" + folder_.string() + "&port=" + std::to_string(port_);
+}
+
 void PostgresServer::start() {
   // Processes are killed here, not power: what was written is in the kernel's hands, and need not
   // be on the disk.
   process_ = spawn({programs() / "postgres", "-D", folder_ / "data", "-p", std::to_string(port_),
-                    "-k", "", "-h", "127.0.0.1", "-c", "fsync=off"},
+                    "-k", folder_, "-h", "127.0.0.1", "-c", "fsync=off"},
                    folder_ / "server.log");
   for (int tries = 600; tries > 0; --tries) {
     try {

@@ -8,8 +8,8 @@
 namespace palpa::test {
 
 /// A PostgreSQL server of its own in a temporary folder, thrown away at the end: one user "palpa"
-/// with a password, an empty database "palpa". It listens on 127.0.0.1 only. As root it runs as the
-/// user "postgres", since the server refuses root.
+/// with a password, an empty database "palpa". It listens on 127.0.0.1 and on a Unix socket in its
+/// folder. As root it runs as the user "postgres", since the server refuses root.
 class PostgresServer {
  public:
   /// Empty: it can run here. Otherwise the reason, for a test to skip with.
@@ -22,7 +22,8 @@ class PostgresServer {
 
   /// Sets PGPASSWORD for this process, as a station would have it.
   std::string url(const std::string& user = "palpa", const std::string& database = "palpa") const;
-  std::string freshDatabase();  ///< url of another, empty one
+  std::string localUrl() const;  ///< of "palpa" by its Unix socket
+  std::string freshDatabase();   ///< url of another, empty one
   void start();
   void kill();  ///< at once, without a farewell to its clients
 

@@ -168,5 +168,35 @@ TEST_P(ServerStations, OneThatSaysNothingIsGivenUp) {
   });
 }
 
+/// The system counts no silence of a Unix socket: a slow answer is waited for there.
+TEST_P(ServerStations, OneOnAUnixSocketIsWaitedFor) {
+  const auto asked =
+      openPostgres(server->localUrl(), Access::write, std::chrono::milliseconds(200));
+  EXPECT_EQ(asked->query("SELECT 1 FROM pg_sleep(2)").size(), 1u);
+}
+
+/// libpqxx 6 would connect anew as soon as a transaction begins.
+TEST_P(ServerStations, AConnectionThatIsLostStaysLost) {
+  const auto lost = connect(url), writing = connect(url), other = connect(url);
+  const auto end = [&](SqlConnection& of) {
+    const auto process = of.query("SELECT pg_backend_pid()").integer(0, 0);
+    other->query("SELECT pg_terminate_backend($1::integer, 60000)", {process});
+  };
+  const auto write = [](SqlConnection& to) {
+    SqlTransaction transaction(to);
+    to.query("SELECT 1");
+    transaction.commit();
+  };
+  end(*lost);
+  for (int i = 0; i < 3; ++i) EXPECT_THROW(write(*lost), StoreUnreachable) << i;
+  {
+    SqlTransaction transaction(*writing);
+    end(*writing);
+    EXPECT_THROW(writing->query("SELECT 1"), StoreUnreachable);
+  }
+  EXPECT_THROW(write(*writing), StoreUnreachable);
+  EXPECT_NO_THROW(write(*other));
+}
+
 }  // namespace
 }  // namespace palpa::record

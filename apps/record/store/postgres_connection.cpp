@@ -103,19 +103,24 @@ class SilenceWatch {
     }
   }
 
-  /// Of one request, as long as bytes come.
+  /// Of one request, as long as bytes come. A socket that keeps no count of that (a local one's
+  /// server, which no cable can part from us) is waited for.
   void watch(std::unique_lock<std::mutex>& lock) {
     const auto over = [this, request = request_] {
       return over_ || socket_ < 0 || request_ != request;
     };
     for (std::chrono::milliseconds wait = most_; !changed_.wait_for(lock, wait, over);) {
-      const std::chrono::milliseconds silent = os::silentSince(socket_).value_or(most_);
+      const std::chrono::milliseconds silent = silence();
       wait = most_ - silent;
       if (silent < most_) continue;
       os::endBoth(socket_);
       hung_up_ = true;
       socket_ = -1;
     }
+  }
+
+  std::chrono::milliseconds silence() const {
+    return os::silentSince(socket_).value_or(std::chrono::milliseconds{0});
   }
 
   const std::chrono::milliseconds most_;
@@ -140,6 +145,7 @@ class PostgresConnection final : public SqlConnection {
           safe + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds +
           "&tcp_user_timeout=" + kSilent_ms + "&client_encoding=UTF8&application_name=palpa" +
           only_read);
+      postgres::stayLost(*connection_);
     });
   }
 
@@ -226,9 +232,17 @@ class PostgresConnection final : public SqlConnection {
     return rows;
   }
 
+  /// A connection that is lost stays lost: whoever asks again makes a new one.
+  void requireConnection() {
+    if (!connection_) return;  // it is being made
+    if (silence_.hasHungUp()) throw StoreUnreachable("does not answer", place(), remedyFor(""));
+    if (!connection_->is_open()) throw StoreUnreachable("was lost", place(), remedyFor(""));
+  }
+
   /// What goes wrong, in words; whether trying again later can help.
   template <typename Action>
   auto guarded(Action action) -> decltype(action()) {
+    requireConnection();
     try {
       const SilenceWatch::Request request(silence_, connection_ ? connection_->sock() : -1);
       return action();

@@ -11,6 +11,9 @@ namespace palpa::record::postgres {
 
 #if PQXX_VERSION_MAJOR >= 7
 
+/// Of a connection that was made: it does not connect anew by itself.
+inline void stayLost(pqxx::connection&) {}
+
 /// Misuse, or a value that cannot be converted: what is no pqxx::failure.
 using LogicFailure = std::logic_error;
 inline std::string reasonOf(const LogicFailure& failure) { return failure.what(); }
@@ -24,6 +27,15 @@ inline pqxx::result execute(pqxx::transaction_base& transaction, const std::stri
 }
 
 #else
+
+/// Of a connection that was made: it does not connect anew by itself, in a rollback either, where
+/// no watch would see it. (Deprecated since libpqxx 7 never does.)
+inline void stayLost(pqxx::connection& connection) {
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+  connection.inhibit_reactivation(true);
+#pragma GCC diagnostic pop
+}
 
 /// Misuse, or a value that cannot be converted: what is no pqxx::failure.
 using LogicFailure = pqxx::pqxx_exception;

@@ -40,7 +40,7 @@ class StoreUnreachable : public Error {
 
 /// The subset of SQL that SQLite and PostgreSQL share: parameters $1, $2, ... in the order of their
 /// numbers, ON CONFLICT DO NOTHING, RETURNING. One connection, one thread. Everything throws Error
-/// in words; a lost or refused connection StoreUnreachable.
+/// in words; a lost or refused connection StoreUnreachable. One that is lost stays lost.
 class SqlConnection {
  public:
   virtual ~SqlConnection() = default;
@@ -93,7 +93,8 @@ std::unique_ptr<SqlConnection> connectToRead(const std::string& url);
 
 enum class Access { write, read };
 std::unique_ptr<SqlConnection> openSqlite(const std::string& file, Access access);
-/// `silence`: a server that answers a request with nothing for so long is given up.
+/// `silence`: a server that answers a request with nothing for so long is given up, unless it is
+/// reached by a local (Unix) socket.
 std::unique_ptr<SqlConnection> openPostgres(
     const std::string& url, Access access,
     std::chrono::milliseconds silence = std::chrono::seconds(20));
