@@ -40,6 +40,7 @@ class HungSession {
   const Folder folder;
   std::string trouble;  ///< the step that did not come; empty: all did
   int exit_code = -1;
+  std::int64_t felt_ns = -1;  ///< session time of a tick with force, before the hang
   /// By a clock of the test's: the stop was confirmed; then the session was asked to end.
   std::int64_t confirmed_ns = 0, asked_ns = 0;
   std::string err;             ///< what it said
@@ -51,7 +52,10 @@ class HungSession {
   bool begins();
   bool hangs();
   bool isStopped();
+  bool isSilentForAWhile();
   bool ends();
+  bool tells(const std::string& what) const;
+  bool isTold(const std::string& what);
   bool feelsForce();
   bool pushesTheGrip();
   bool waitFor(const char* step, bool came);
