@@ -27,8 +27,9 @@ struct HungPart {
 };
 
 /// A whole session in real time: when there is force, a part of it hangs; the emergency stop is
-/// pressed by the console's socket; later the part is let go, or not; SIGTERM ends the session.
-/// Every step is waited for, with patience; what does not come is told.
+/// pressed by the console's socket; later the part is let go, or not; SIGTERM ends the session when
+/// the evidence tells of the silence, and of its end. Every step is waited for, with patience; what
+/// does not come is told.
 class HungSession {
  public:
   explicit HungSession(HungPart part);
