@@ -1,5 +1,6 @@
 #include "hung_session.h"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <fstream>
@@ -198,9 +199,12 @@ bool HungSession::feelsForce() {
   constexpr std::ptrdiff_t kShortly = 200;
   const auto all = ticks();
   const auto shortly = std::min<std::ptrdiff_t>(kShortly, std::ssize(all));
-  return std::any_of(all.end() - shortly, all.end(), [](const haptics::FlightRecord& tick) {
-    return unpack(tick.f_command_D).norm() > kForce_N;
+  const auto end = all.rbegin() + shortly;
+  const auto tick = std::find_if(all.rbegin(), end, [](const haptics::FlightRecord& one) {
+    return unpack(one.f_command_D).norm() > kForce_N;
   });
+  if (tick != end) felt_ns = tick->t_ns;
+  return tick != end;
 }
 
 /// By the console's socket, as its page's button does.
@@ -212,7 +216,7 @@ void HungSession::commandStart() {
   os::closeSocket(socket);
 }
 
-/// A person's hand: until there is force.
+/// A person's hand: until there is force. The evidence may be behind what it does.
 bool HungSession::pushesTheGrip() {
   constexpr double kDeepest_mm = 12;
   for (double depth_mm = -10; depth_mm < kDeepest_mm; depth_mm += 0.5) {
@@ -220,7 +224,7 @@ bool HungSession::pushesTheGrip() {
     holdGrip(folder / "falcon", depth_mm);
     testClock().sleepUntil(testClock().now() + (depth_mm < 0 ? 20 : 150) * runtime::kMillisecond);
   }
-  return false;
+  return comes([this] { return program_->ended() || feelsForce(); }) && !program_->ended();
 }
 
 bool HungSession::waitFor(const char* step, bool came) {
@@ -266,12 +270,39 @@ bool HungSession::isStopped() {
   return waitFor("the stop's confirmation", confirmed);
 }
 
-bool HungSession::ends() {
+/// Whether the evidence tells, by now, that the hung part does this.
+bool HungSession::tells(const std::string& what) const {
+  try {
+    const auto events = record::SessionReader(folder / "A/session.palpa").events();
+    return std::any_of(events.begin(), events.end(), [&](const runtime::Event& event) {
+      return says(event.text, part.words + ' ' + what);
+    });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+bool HungSession::isTold(const std::string& what) {
+  const auto told = [&] { return tells(what) || program_->ended(); };
+  return waitFor(("that it " + what).c_str(),
+                 comes(told, 200 * runtime::kMillisecond) && !program_->ended());
+}
+
+/// It is silent for a while, is let go where that is to be, and all of it is told. The evidence
+/// tells nothing while itself hangs.
+bool HungSession::isSilentForAWhile() {
   const std::int64_t hang = test::counted(5, 60) * runtime::kSecond;
+  const bool let_go = part.how_long == Hangs::for_a_while, is_evidence = part.calls == "evidence";
+  testClock().sleepUntil(testClock().now() + (let_go ? hang : 4 * runtime::kSecond));
+  if (!is_evidence && !isTold("does not answer")) return false;
+  if (!let_go) return true;
+  fs::remove(folder / "hang");
+  return isTold("does not answer") && isTold("answers again");
+}
+
+bool HungSession::ends() {
   const bool let_go = part.how_long == Hangs::for_a_while;
-  testClock().sleepUntil(testClock().now() + (let_go ? hang : 3 * runtime::kSecond));
-  if (let_go) fs::remove(folder / "hang");
-  testClock().sleepUntil(testClock().now() + runtime::kSecond);  // it answers again
+  if (!isSilentForAWhile()) return false;
   asked_ns = testClock().now();
   program_->send(SIGTERM);
   const auto saysSo = [this] {

@@ -27,8 +27,9 @@ struct HungPart {
 };
 
 /// A whole session in real time: when there is force, a part of it hangs; the emergency stop is
-/// pressed by the console's socket; later the part is let go, or not; SIGTERM ends the session.
-/// Every step is waited for, with patience; what does not come is told.
+/// pressed by the console's socket; later the part is let go, or not; SIGTERM ends the session when
+/// the evidence tells of the silence, and of its end. Every step is waited for, with patience; what
+/// does not come is told.
 class HungSession {
  public:
   explicit HungSession(HungPart part);
@@ -40,6 +41,7 @@ class HungSession {
   const Folder folder;
   std::string trouble;  ///< the step that did not come; empty: all did
   int exit_code = -1;
+  std::int64_t felt_ns = -1;  ///< session time of a tick with force, before the hang
   /// By a clock of the test's: the stop was confirmed; then the session was asked to end.
   std::int64_t confirmed_ns = 0, asked_ns = 0;
   std::string err;             ///< what it said
@@ -51,7 +53,10 @@ class HungSession {
   bool begins();
   bool hangs();
   bool isStopped();
+  bool isSilentForAWhile();
   bool ends();
+  bool tells(const std::string& what) const;
+  bool isTold(const std::string& what);
   bool feelsForce();
   bool pushesTheGrip();
   bool waitFor(const char* step, bool came);

@@ -99,7 +99,8 @@ TEST_F(Stops, AStrangersIsNone) {
   EXPECT_TRUE(goesOn()) << "an emergency stop came through";
 }
 
-/// A hundred whole ones of a stranger at the educator's own address, before the educator's.
+/// A hundred whole ones of a stranger at the educator's own address, before the educator's. Who is
+/// turned away before the request is read may find the connection reset, and 503 lost with it.
 TEST_F(Stops, AHundredOfAStrangerAreNotBeforeTheRightOne) {
   const std::string id = session();
   ASSERT_GE(console().events(id, "", until(5)).size(), 5u);
@@ -112,10 +113,14 @@ TEST_F(Stops, AHundredOfAStrangerAreNotBeforeTheRightOne) {
   }
   const Answer right = stop();
   EXPECT_EQ(right.status, 202) << right.head << right.body;
+  int refused = 0;
   for (Wire& stranger : strangers) {
     const int status = answerIn(stranger.read(60s)).status;
-    EXPECT_TRUE(status == 403 || status == 503) << status;
+    const bool turned_away = status == 503 || (status == 0 && stranger.closed());
+    EXPECT_TRUE(status == 403 || turned_away) << status;
+    refused += status == 403;
   }
+  EXPECT_GT(refused, 0) << "none was heard";
   leave(id);
 }
 

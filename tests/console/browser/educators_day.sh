@@ -59,7 +59,13 @@ for _ in \$(seq 300); do
 done
 exit 1
 BEGIN
-trap 'kill $(cat "$work/pid") 2>/dev/null || true' EXIT
+# A session goes on without its console: one that a failed day left would run for ever.
+leave() {
+  kill "$(cat "$work/pid")" 2>/dev/null || true
+  grep -lsaFf <(echo "$work/run/palpa/") /proc/[0-9]*/cmdline |
+    while IFS=/ read -r _ _ pid _; do kill "$pid" 2>/dev/null || true; done || true
+}
+trap leave EXIT
 bash "$work/begin.sh"
 url=$(sed -n 's/^The console: //p' "$work/console.txt")
 cd "$work"
