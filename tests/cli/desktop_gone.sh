@@ -2,7 +2,7 @@
 # desktop_gone.sh PROGRAM PRESS: sessions in real time whose X server dies or hangs, whose window
 # another program destroys, whose terminal hangs up. Each ends in order, with report and table.
 # PRESS: presses a session's emergency stop by its socket.
-# PALPA_FULL=1: 50 of each; otherwise one, and of the two ways to lose a window one.
+# PALPA_FULL=1: 50 of each, two at a time; otherwise one, and of the two ways to lose a window one.
 set -uo pipefail
 palpa=$1 press=$2
 here=$(cd "$(dirname "$0")" && pwd)
@@ -11,13 +11,7 @@ for tool in Xvfb xdotool; do
   command -v $tool >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
 done
 work=$(mktemp -d)
-server=0 program=0
-clean() {
-  kill -KILL $server $program 2>/dev/null
-  rm -rf "$work"
-}
-trap clean EXIT
-export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data
+trap 'rm -rf "$work"' EXIT
 sessions=1
 [ "${PALPA_FULL:-}" = 1 ] && sessions=50
 
@@ -33,17 +27,17 @@ until_true() {
 over() { ! kill -0 $program 2>/dev/null; }
 
 begin() {   # a session of a simulated expert, in a window of a display of its own
-  out=$work/$1
-  rm -f "$work/display"
-  Xvfb -displayfd 3 -screen 0 1280x800x24 3>"$work/display" 2>/dev/null &
+  out=$place/$1
+  rm -f "$place/display"
+  Xvfb -displayfd 3 -screen 0 1280x800x24 3>"$place/display" 2>/dev/null &
   server=$!
-  until_true 20 test -s "$work/display"
-  export DISPLAY=:$(cat "$work/display")
+  until_true 20 test -s "$place/display"
+  export DISPLAY=:$(cat "$place/display")
   "$palpa" paracentesis --display window --operator expert --trials 9 --quiet --out "$out" \
     --live "$out.live" >"$out.said" 2>&1 &
   program=$!
   until_true 120 test -s "$out/session.palpa"
-  sleep 2
+  sleep $((1 + number % 3)).$((number % 10))  # another moment of the trial in each round
 }
 
 finished() {   # WORDS [pressed]: the program ends by itself; nothing is owed
@@ -71,26 +65,31 @@ stopped() {   # from the tick that carries the stop on there is no force
 
 window() { xdotool search --onlyvisible --name '^Palpa$' | head -n 1; }
 
-for number in $(seq $sessions); do
-  begin "server-$number"
+one_round() {   # NUMBER: a session of each kind
+  number=$1 place=$work/$1 server=0 program=0
+  mkdir "$place"
+  trap 'kill -KILL $server $program 2>/dev/null; rm -rf "$place"' EXIT
+  export HOME=$place XDG_STATE_HOME=$place/state XDG_DATA_HOME=$place/data
+
+  begin server
   kill -KILL $server
   finished "X server killed"
 
-  begin "destroyed-$number"
+  begin destroyed
   xdotool windowclose "$(window)"
   finished "window destroyed"
 
   if [ $sessions -gt 1 ]; then
-    begin "client-$number"
+    begin client
     xdotool windowkill "$(window)"
     finished "connection killed"
   fi
 
-  begin "terminal-$number"
+  begin terminal
   kill -HUP $program
   finished "terminal hung up"
 
-  begin "hung-$number"
+  begin hung
   kill -STOP $server
   sleep 1
   expect "X server hangs: the stop is confirmed" "$press" "$out.live"
@@ -99,5 +98,16 @@ for number in $(seq $sessions); do
   finished "X server hangs" pressed
   expect "X server hangs: no force after the stop" stopped
   expect "X server hangs: it is named" grep -q 'the picture does not answer' "$out/report.html"
+}
+
+for round in $(seq $sessions); do
+  while [ "$(jobs -rp | wc -l)" -ge 2 ]; do wait -n; done
+  (one_round "$round") >"$work/said.$round" 2>&1 &
+  [ $((round % 10)) = 0 ] && echo "$round of $sessions"
 done
+wait
+cat "$work"/said.* | sort | uniq -c
+failures=$(cat "$work"/said.* | grep -c '^FAIL')
+[ "$(cat "$work"/said.* | grep -c '^ok    X server hangs: it is named')" = $sessions ] ||
+  expect "every round comes to its end" false
 finish
