@@ -225,7 +225,7 @@ TEST(Failures, AFileThatTheSystemRefusesIsNamed) {
   const auto code = std::make_error_code(std::errc::permission_denied);
   const auto thrown = asThrown(std::filesystem::filesystem_error("directory_iterator", "/a", code));
   EXPECT_EQ(told(thrown).text,
-            "/a: cannot be used (you may not read it). Check its name, and who may use it");
+            "/a: cannot be used (you may not do this with it). Check its name, and who may use it");
   EXPECT_TRUE(holds(told(thrown, true).text, code.message()));
 }
 
