@@ -96,6 +96,13 @@ double momentIn(const nlohmann::json& at) {
   return seconds;
 }
 
+int trialIn(const nlohmann::json& trial) {
+  constexpr int kMostTrials = 1000;
+  if (!trial.is_number_integer() || trial < 1 || trial > kMostTrials)
+    throw UsageError("is not a trial's number", "trial", "Send 1 to 1000, or leave it out");
+  return trial.get<int>();
+}
+
 }  // namespace
 
 trial::UserRequest parseSteering(const std::string& text) {
@@ -107,13 +114,14 @@ trial::UserRequest parseSteering(const std::string& text) {
   if (found == kCommands.end())
     throw UsageError("is unknown", "command \"" + name.substr(0, 32) + "\"",
                      "Known: start, pause, abort, void, stop, rearm, leave, note");
-  trial::UserRequest request{found->second, textIn(json, "reason"), 0};
+  trial::UserRequest request{found->second, textIn(json, "reason")};
   if (request.reason.empty() &&
       (request.command == UserCommand::void_trial || request.command == UserCommand::note))
     throw UsageError("needs a text", "command \"" + name + "\"",
                      request.command == UserCommand::note ? "Write what is to be noted"
                                                           : "Say why the trial should not count");
   if (json.contains("at_s")) request.at_s = momentIn(json["at_s"]);
+  if (json.contains("trial")) request.trial = trialIn(json["trial"]);
   return request;
 }
 

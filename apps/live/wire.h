@@ -17,7 +17,7 @@ enum class FrameKind : char {
   /// Session -> console, once, first: how many entries its log held when the console came; with as
   /// many it has caught up
   known = 'K',
-  command = 'C',  ///< console -> session: {"command", "reason", "at_s"}
+  command = 'C',  ///< console -> session: {"command", "reason", "at_s", "trial"}
   watch = 'W',    ///< console -> session: "1": pictures are wanted; "0": nobody looks
   /// The emergency stop, at its own socket; the session sends it back when it has it. Empty
   stop = 'S'
@@ -47,10 +47,11 @@ class FrameDecoder {
   std::string pending_;
 };
 
-/// {"command": "start|pause|abort|void|stop|rearm|leave|note", "reason": "...", "at_s": 12.4} as a
-/// request to the task. Throws UsageError for what is none: unknown command, void without a reason,
-/// an empty note, a text over 500 characters or with control characters, an `at_s` that is no
-/// second of a session. `at_s`: the moment of a note, session time.
+/// {"command": "start|pause|abort|void|stop|rearm|leave|note", "reason": "...", "at_s": 12.4,
+/// "trial": 2} as a request to the task. Throws UsageError for what is none: unknown command, void
+/// without a reason, an empty note, a text over 500 characters or with control characters, an
+/// `at_s` that is no second of a session, a `trial` that is no number of one. `at_s`: the moment of
+/// a note, session time. `trial`: the only one that is to be void, or aborted.
 trial::UserRequest parseSteering(const std::string& json);
 
 }  // namespace palpa::live

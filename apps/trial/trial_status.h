@@ -74,6 +74,8 @@ struct UserRequest {
   std::string reason;
   /// Of a note: the session time it is about. Of a remark: 1 where the report is to say it
   double at_s = 0;
+  /// Of a void or an abort: what it was meant for, which may have ended since; 0: whichever is on
+  int trial = 0;
 };
 
 /// Between task, scene and whoever asks for something: one writer, one reader each.

@@ -181,12 +181,12 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       status_.notice = "Paused: Enter continues";
       return report(now_ns, EventKind::pause, "The trial is paused");
     case UserCommand::abort:
-      if (status_.active())
+      if (isMeant(request, now_ns))
         endTrial(Outcome::aborted, reason.empty() ? "Aborted by the person in charge" : reason,
                  now_ns);
       return;
     case UserCommand::void_trial:
-      if (status_.active()) endTrial(Outcome::voided, reason, now_ns);
+      if (isMeant(request, now_ns)) endTrial(Outcome::voided, reason, now_ns);
       return;
     case UserCommand::emergency_stop:
       return bus_.stop.press();
@@ -207,6 +207,18 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       if (status_.active()) receive(request, now_ns);
       return;
   }
+}
+
+/// The trial that is on; while somebody made up his mind it may have become another.
+bool TrialTask::isMeant(const UserRequest& request, std::int64_t now_ns) {
+  if (request.trial > 0 && !(status_.active() && request.trial == status_.trial)) {
+    const std::string which = "Trial " + std::to_string(request.trial);
+    report(now_ns, EventKind::note,
+           which + " had ended when it was to be ended by hand: nothing was changed. " +
+               request.reason);
+    return false;
+  }
+  return status_.active();
 }
 
 /// In practice nobody's failure; from an examination one does not slip away.

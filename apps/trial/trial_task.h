@@ -78,6 +78,7 @@ class TrialTask : public runtime::Activity {
   void watchStop(std::int64_t now_ns);
   void stopAll(std::int64_t now_ns);
   void rearm(std::int64_t now_ns);
+  bool isMeant(const UserRequest& request, std::int64_t now_ns);
   void leave(const std::string& reason, std::int64_t now_ns);
   void goOn(std::int64_t now_ns);
   void listen(std::int64_t now_ns);

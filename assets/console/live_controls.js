@@ -18,19 +18,21 @@ export class LiveControls {
     );
     this.go.id = "live-go";
     this.abort = this.#button("Abort the trial…", "", async () => {
+      const { trial } = this.status; // the one that is meant, though the next may begin meanwhile
       if (
         await confirmed(
-          `Abort trial ${this.status.trial}?`,
+          `Abort trial ${trial}?`,
           "The trial ends here and counts as aborted. " +
             "If something other than the trainee was the cause, void it instead.",
           "Abort the trial",
         )
       )
-        await this.#command("abort");
+        await this.#command("abort", { trial });
     });
     this.void = this.#button("Void the trial…", "", async () => {
-      const reason = await askVoidReason(this.status.trial);
-      if (reason) await this.#command("void", { reason });
+      const { trial } = this.status;
+      const reason = await askVoidReason(trial);
+      if (reason) await this.#command("void", { reason, trial });
     });
     this.leave = this.#button("End the session…", "", async () => {
       if (

@@ -38,6 +38,8 @@ TEST(Steering, EveryKindIsItself) {
     EXPECT_EQ(request.reason, "the bed moved");
     EXPECT_EQ(request.at_s, 12.4);
   }
+  EXPECT_EQ(parsed({{"command", "void"}, {"reason", "the bed moved"}, {"trial", 2}}).trial, 2);
+  EXPECT_EQ(parsed({{"command", "abort"}}).trial, 0) << "whichever is on";
   EXPECT_EQ(parsed({{"command", "start"}}).at_s, 0);
   EXPECT_EQ(parsed({{"command", "start"}}).reason, "");
 }
@@ -68,6 +70,11 @@ TEST(Steering, WhatIsNoRequestIsRefusedInOneLine) {
                                  "{\"command\":\"start\"",
                                  "{\"command\":\"start\"}}",
                                  "{\"command\":\"st\\u0000art\"}",
+                                 "{\"command\":\"abort\",\"trial\":0}",
+                                 "{\"command\":\"abort\",\"trial\":1.5}",
+                                 "{\"command\":\"abort\",\"trial\":\"1\"}",
+                                 "{\"command\":\"abort\",\"trial\":null}",
+                                 "{\"command\":\"abort\",\"trial\":1001}",
                                  "{\"command\":\"void\"}",
                                  "{\"command\":\"void\",\"reason\":\"\"}",
                                  "{\"command\":\"note\"}",

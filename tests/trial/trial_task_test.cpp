@@ -144,6 +144,40 @@ TEST_F(Rehearsing, ATrialIsMarkedByTheTicksThatItMissed) {
   EXPECT_EQ(task.state(), TrialState::waiting);
 }
 
+/// Somebody makes up his mind about the first; meanwhile the second has begun.
+TEST_F(Rehearsing, OnlyTheTrialThatIsMeantIsEndedByHand) {
+  run(210);
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  task.endNow(now);
+  run(310);
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  ASSERT_EQ(task.state(), TrialState::running);
+  for (const UserCommand command : {UserCommand::void_trial, UserCommand::abort}) {
+    channels.requests_to_task.push({command, "The bed moved", 0, 1});
+    step();
+    EXPECT_EQ(task.state(), TrialState::running);
+  }
+  const std::string kept =
+      "Trial 1 had ended when it was to be ended by hand: nothing was changed. The bed moved";
+  EXPECT_EQ(of(runtime::EventKind::note), (std::vector<std::string>{kept, kept}));
+  channels.requests_to_task.push({UserCommand::void_trial, "The bed moved", 0, 2});
+  step();
+  EXPECT_EQ(task.state(), TrialState::ended);
+}
+
+/// A simulated person does what he sees.
+TEST_F(Rehearsing, WhoSeesNoPicturesHasLongerToBecomeReady) {
+  PlainTask automatic{{2, true, "", {}}, bus, channels, *executive};
+  const auto wait = [&](int seconds) {  // and no camera
+    for (int i = 0; i < 100 * seconds; ++i, now += 10 * runtime::kMillisecond) automatic.step(now);
+  };
+  EXPECT_NO_THROW(wait(20));
+  channels.frames += 60;
+  EXPECT_THROW(wait(1), Error);
+}
+
 TEST_F(Rehearsing, AStopKeyThatIsHeldIsOneEmergencyStopUntilSomebodyReArms) {
   run(210);
   for (int i = 0; i < 5; ++i) {
