@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "anatomy/base/error.h"
+
 namespace palpa::trial {
 namespace {
 
