@@ -71,7 +71,7 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
   const std::vector<FlightRecord> whole = ticksOf(reference / "A/session.palpa");
   ASSERT_GT(whole.size(), 1000u);
 
-  const int kills = palpa::test::counted(6, 50);
+  const int kills = palpa::test::counted(3, 50);
   std::mt19937_64 bits(11);
   int in_the_middle = 0;
   for (int k = 0; k < kills; ++k) {
