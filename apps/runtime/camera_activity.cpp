@@ -1,5 +1,8 @@
 #include "apps/runtime/camera_activity.h"
 
+#include <new>
+
+#include "anatomy/base/error.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::runtime {
@@ -35,6 +38,17 @@ CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
                                  ar::BoardTracker::Settings{{}, !settings_.photographs});
 }
 
+namespace {
+
+/// `why`: in our words; empty: not known.
+CameraView goneIn(CameraView view, const std::string& why) {
+  view.fault = ar::PictureFault::gone;
+  view.source = why;
+  return view;
+}
+
+}  // namespace
+
 CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number) {
   CameraView view;
   view.t_exposure_ns = t_ns;
@@ -43,11 +57,16 @@ CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std:
   std::optional<ar::Frame> frame;
   try {
     frame = exposure();
-    // Of the source alone: what goes wrong in the tracking is told to the executive
-  } catch (const std::exception& e) {
-    view.fault = ar::PictureFault::gone;
-    view.source = e.what();
-    return view;
+    // Of the source alone: what goes wrong in the tracking, or memory, is told to the executive
+  } catch (const Error& e) {
+    return goneIn(std::move(view), e.what());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const cv::Exception& e) {
+    if (e.code == cv::Error::StsNoMem) throw std::bad_alloc();
+    return goneIn(std::move(view), "");
+  } catch (const std::exception&) {
+    return goneIn(std::move(view), "");
   }
   if (!frame) {
     view.fault = ar::PictureFault::ended;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <mutex>
+#include <new>
 #include <tuple>
 
 #include "anatomy/base/error.h"
@@ -65,8 +67,22 @@ TagDetector::TagDetector(const Settings& settings) : library_(std::make_unique<L
 
 TagDetector::~TagDetector() = default;
 
+namespace {
+
+/// The library asks for memory and does not look whether it was given: where there is no room for
+/// what it makes of a picture, it would take the program with it. Throws std::bad_alloc.
+void requireRoom(std::size_t pixels) {
+  constexpr std::size_t kBytesAPixel = 64;
+  void* volatile room = std::malloc(kBytesAPixel * pixels);  // volatile: it is really asked for
+  if (room == nullptr) throw std::bad_alloc();
+  std::free(room);
+}
+
+}  // namespace
+
 std::vector<Tag> TagDetector::detect(const cv::Mat& image) const {
   cv::Mat gray = grayPicture(image);
+  requireRoom(gray.total());
   image_u8_t view = {gray.cols, gray.rows, static_cast<int>(gray.step[0]), gray.data};
   const std::lock_guard lock(library_->mutex);
   zarray_t* found = apriltag_detector_detect(library_->detector.get(), &view);

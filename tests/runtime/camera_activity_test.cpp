@@ -160,13 +160,22 @@ ar::Frame noisy(std::int64_t t, std::uint64_t number) {
 TEST(CameraActivity, ASourceThatFailsIsToldAndAskedAgain) {
   const Told told = tellOf(
       [](std::int64_t t, std::uint64_t n) -> std::optional<ar::Frame> {
-        if (n == 1 || n == 2) throw std::runtime_error("lens cap");
+        if (n == 1) throw Error("is covered", "lens", "Take the cap off");
+        if (n == 2) throw std::runtime_error("a library's words");
         return noisy(t, n);
       },
       4);
   using F = ar::PictureFault;
   EXPECT_EQ(told.faults, (std::vector<F>{F::none, F::gone, F::gone, F::none}));
-  EXPECT_NE(told.words[1].find("lens cap"), std::string::npos);
+  EXPECT_NE(told.words[1].find("Take the cap off"), std::string::npos);
+  EXPECT_EQ(told.words[2], "the camera is gone: look at its cable");
+}
+
+TEST(CameraActivity, WantOfMemoryIsNotTheCameras) {
+  const auto hungry = [](std::int64_t, std::uint64_t) -> std::optional<ar::Frame> {
+    throw cv::Exception(cv::Error::StsNoMem, "", "", "", 0);
+  };
+  EXPECT_THROW(tellOf(hungry, 1), std::bad_alloc);
 }
 
 TEST(CameraActivity, BlackFrozenAndForeignPicturesAreTold) {
