@@ -22,6 +22,7 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  bool hasOlderSession() const { return has_older_session_; }  ///< another's evidence is in it
   void keep() { written_.keep(), kept_ = true; }
 
  private:

@@ -43,23 +43,16 @@ bool standsAlone(const SessionOptions& options) {
 
 void sayTrouble(const std::string& words) { std::fprintf(stderr, "palpa: %s\n", words.c_str()); }
 
-void closeEvidence(runtime::RecorderActivity& recorder, record::SessionWriter& writer) {
+/// What the parts that still could have left for it goes into the evidence as well. Why not; empty:
+/// it does.
+std::string keepEvidence(runtime::RecorderActivity& recorder, record::SessionWriter& writer) {
   try {
     recorder.finish();
     writer.close();
   } catch (const std::exception& e) {
-    sayTrouble(e.what());
+    return e.what();
   }
-}
-
-/// What the parts that still could have left for it goes into the evidence as well; the fault that
-/// ended the session is told, and no other.
-void keepEvidence(runtime::RecorderActivity& recorder, record::SessionWriter& writer) noexcept {
-  try {
-    recorder.finish();
-    writer.close();
-  } catch (const std::exception&) {
-  }
+  return "";
 }
 
 /// A session of which something hangs: this program, anew, makes of its evidence what it owes.
@@ -219,15 +212,17 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
       [&](const runtime::Executive::Stuck& stuck, const std::string& failure) {
         if (!failure.empty()) sayTrouble(failure);
         sayTrouble(listed(stuck) + kLeftBehind);
-        if (std::find(stuck.begin(), stuck.end(), recorder.name()) == stuck.end())
-          closeEvidence(recorder, writer);
+        const bool is_kept = std::find(stuck.begin(), stuck.end(), recorder.name()) == stuck.end();
+        if (const std::string trouble = is_kept ? keepEvidence(recorder, writer) : "";
+            !trouble.empty())
+          sayTrouble(trouble);
         leaveBehind(options_, folder_);
       },
       kEndPatience);
   try {
     executive_->run();
   } catch (...) {
-    keepEvidence(recorder, writer);
+    keepEvidence(recorder, writer);  // the fault that ended the session is told, and no other
     throw;
   }
   scene.finish(executive_->clock().now());

@@ -22,7 +22,6 @@ SessionLeft heldIn(const SessionOptions& options, Hold hold) {
   OutputFolder output(options.out, options.command);
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();
-  const bool is_first = !std::filesystem::exists(folder / "session.palpa");
   try {
     const BegunSession begun(folder);
     const bool quit = hold(folder);
@@ -30,7 +29,7 @@ SessionLeft heldIn(const SessionOptions& options, Hold hold) {
     deliverSession(options, folder);
     return {folder, quit};
   } catch (const std::exception& e) {
-    if (is_first) reportFailed(folder, e.what());  // another's is its own matter
+    if (!output.hasOlderSession()) reportFailed(folder, e.what());
     throw;
   }
 }

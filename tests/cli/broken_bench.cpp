@@ -109,21 +109,23 @@ void BrokenBench::sensor(std::uint32_t step, std::uint32_t status) {
   sensorAt(sensor_->port());
 }
 
-void BrokenBench::sensorAt(int port) {
+nlohmann::json BrokenBench::netFtAt(int port) {
   const nlohmann::json nowhere = {0, 0, 0};
-  station([&](nlohmann::json& s) {
-    s["force_sensor"] = {{"driver", "net_ft"},
-                         {"name", "six axes"},
-                         {"address", "127.0.0.1"},
-                         {"port", port},
-                         {"counts_per_N", 1000000},
-                         {"counts_per_Nm", 1000000},
-                         {"max_force_N", {40, 40, 120}},
-                         {"cutoff_Hz", 60},
-                         {"X_ES", {{"position_mm", {0, 0, 80}}, {"rotation_vector_deg", nowhere}}},
-                         {"tool", {{"mass_g", 30}, {"centre_mm", {0, 0, 20}}}},
-                         {"bias", {{"force_N", nowhere}, {"torque_Nm", nowhere}}}};
-  });
+  return {{"driver", "net_ft"},
+          {"name", "six axes"},
+          {"address", "127.0.0.1"},
+          {"port", port},
+          {"counts_per_N", 1000000},
+          {"counts_per_Nm", 1000000},
+          {"max_force_N", {40, 40, 120}},
+          {"cutoff_Hz", 60},
+          {"X_ES", {{"position_mm", {0, 0, 80}}, {"rotation_vector_deg", nowhere}}},
+          {"tool", {{"mass_g", 30}, {"centre_mm", {0, 0, 20}}}},
+          {"bias", {{"force_N", nowhere}, {"torque_Nm", nowhere}}}};
+}
+
+void BrokenBench::sensorAt(int port) {
+  station([&](nlohmann::json& s) { s["force_sensor"] = netFtAt(port); });
 }
 
 std::filesystem::path BrokenBench::calibration(

@@ -19,6 +19,9 @@ namespace palpa::cli_test {
 /// on the loopback, the system's own answers.
 class BrokenBench {
  public:
+  /// A Net F/T at this port of this computer, as a station's file names it.
+  static nlohmann::json netFtAt(int port);
+
   BrokenBench();
   ~BrokenBench();
   BrokenBench(const BrokenBench&) = delete;

@@ -13,6 +13,7 @@
 #include "apps/os/tcp_socket.h"
 #include "apps/record/session_file.h"
 #include "apps/runtime/clock.h"
+#include "broken_bench.h"
 #include "haptics/devices/falcon/falcon_kinematics.h"
 #include "tests/computer_faults/falcon_on_a_cable.h"
 #include "tests/sensors/fake_net_ft.h"
@@ -74,21 +75,6 @@ const Folder& quickRecording() {
   return here;
 }
 
-nlohmann::json sensorAt(std::uint16_t port) {
-  const nlohmann::json nowhere = {0, 0, 0};
-  return {{"driver", "net_ft"},
-          {"name", "six axes"},
-          {"address", "127.0.0.1"},
-          {"port", port},
-          {"counts_per_N", 1000000},
-          {"counts_per_Nm", 1000000},
-          {"max_force_N", {40, 40, 120}},
-          {"cutoff_Hz", 60},
-          {"X_ES", {{"position_mm", {0, 0, 80}}, {"rotation_vector_deg", nowhere}}},
-          {"tool", {{"mass_g", 30}, {"centre_mm", {0, 0, 20}}}},
-          {"bias", {{"force_N", nowhere}, {"torque_Nm", nowhere}}}};
-}
-
 Vec3 vectorOf(const nlohmann::json& list) { return unpack(list.get<Packed3>()); }
 
 Mat3 rotationOf(const nlohmann::json& pose) {
@@ -147,7 +133,7 @@ std::string HungSession::station(const std::string& shipped) const {
   if (sensor_) {
     station["device"]["driver"] = "replay";
     station["device"]["recording"] = (quickRecording() / "A/session.palpa").string();
-    station["force_sensor"] = sensorAt(sensor_->port());
+    station["force_sensor"] = BrokenBench::netFtAt(sensor_->port());
   }
   return folder.file("station.json", station.dump());
 }
