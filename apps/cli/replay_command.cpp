@@ -147,6 +147,9 @@ void replay(const std::string& file) {
   const record::SessionReader reader(file);
   const evidence::ReplayCheck check =
       evidence::replayTicks(reader, evidence::recordedFloors(reader));
+  if (check.recorded == 0 && reader.trials().empty())
+    throw Error("holds no tick", file,
+                "The session ended before the first was written: there is nothing to run again");
   printTicks(check);
   const Likeness all = worse(check.likeness(), scoresOf(reader, file));
   if (all == Likeness::changed)

@@ -211,6 +211,7 @@ ReplayCheck replayPairs(const record::SessionReader& reader) {
   const auto state = std::make_unique<haptics::PairState>();
   std::optional<haptics::FlightRecord> first;
   reader.ticks([&](const haptics::FlightRecord& recorded) {
+    ++check.recorded;
     if (check.gaps > 0) return;
     if (recorded.tool == 0) {
       if (first || recorded.tick != state->tools[0].tick) ++check.gaps;
@@ -245,6 +246,7 @@ ReplayCheck replaySingle(const record::SessionReader& reader,
   bool aligned = false;
   std::int64_t differed = 0;  // of the ticks since the state was taken from a keyframe
   reader.ticks([&](const haptics::FlightRecord& recorded) {
+    ++check.recorded;
     const bool strayed = check.different > differed && keyframes.count(recorded.tick) > 0;
     if (!aligned || strayed || state.tick != recorded.tick) {
       if (aligned && state.tick != recorded.tick) ++check.gaps;

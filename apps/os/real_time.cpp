@@ -23,6 +23,7 @@ namespace {
 constexpr int kFifoPriority = 80;
 constexpr int kServerNice = 15;
 constexpr int kMemoryPools = 2;
+constexpr int kLargeMemory = 512 * 1024;    // bytes
 constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
 constexpr std::size_t kPage = 4096;         // the smallest there is
 
@@ -96,6 +97,8 @@ std::thread startThread(std::function<void()> work) {
 }
 
 void shareMemoryPools() { mallopt(M_ARENA_MAX, kMemoryPools); }
+
+void giveLargeMemoryBack() { mallopt(M_MMAP_THRESHOLD, kLargeMemory); }
 
 void giveWay() { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kServerNice); }
 

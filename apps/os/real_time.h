@@ -39,4 +39,9 @@ void giveWay();
 /// usual, each keeps what it once needed: a server of many threads grows by as many answers.
 void shareMemoryPools();
 
+/// Pieces of half a megabyte and more, as pictures are, go back to the system as soon as they are
+/// free. As is usual they stay with the process, whose memory is then as large as everything ever
+/// was at once: in a session of hours, at every hitch of the computer, a little more.
+void giveLargeMemoryBack();
+
 }  // namespace palpa::os

@@ -1,6 +1,7 @@
 #include "apps/session/whole_session.h"
 
 #include "anatomy/base/error.h"
+#include "apps/os/real_time.h"
 #include "apps/os/signals.h"
 #include "apps/session/finish_session.h"
 #include "apps/session/needle_session.h"
@@ -19,6 +20,7 @@ namespace {
 /// `hold` leaves all of a session in its folder; true: somebody ended it early.
 template <class Hold>
 SessionLeft heldIn(const SessionOptions& options, Hold hold) {
+  if (!options.fast) os::giveLargeMemoryBack();
   OutputFolder output(options.out, options.command);
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/record/session_file.h"
 #include "program.h"
 #include "tests/support/setting.h"
 
@@ -116,6 +117,9 @@ TEST_F(BadInput, SessionMissingOrDamaged) {
     expectRefused({"calibrate", "experts", "--from", file, "--out", "path.json"}, name, 1);
   }
   const std::string whole = (here / "whole/session.palpa").string();
+  // A session whose drive refused its first ticks: not a changed one.
+  record::SessionWriter(here / "none.palpa", record::SessionReader(whole).info()).close();
+  expectRefused({"replay", "none.palpa"}, "none.palpa: holds no tick", 1);
   expectRefused({"calibrate", "experts", "--from", whole, "--out", "path.json"}, "20",
                 1);  // too few trials
 }

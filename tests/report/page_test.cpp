@@ -157,6 +157,29 @@ TEST(Page, EmbedsPicturesAndNamesLostOnes) {
   EXPECT_FALSE(contains(page, folder.string()));  // a page says nothing of folders
 }
 
+/// A session of hours has a thousand pictures: the page would have a gigabyte.
+TEST(Page, ShowsPicturesFromBesideItWhereItIsLarge) {
+  const fs::path folder = freshFolder("large");
+  std::ofstream(folder / "view-1.png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(kPixel), sizeof(kPixel));
+  const std::vector<Picture> pictures{{folder / "view-1.png", "Vein entered", 26.2}};
+  Html small;
+  writePictures(small, pictures, 0);
+  EXPECT_TRUE(contains(small.str(), "data:image/png;base64,iVBORw0KGgo"));
+  WholeFile file(folder / "large.html");
+  Html large(file);
+  large.element("p", "a page");
+  large.passOn();
+  EXPECT_GT(large.size(), 0U);
+  writePictures(large, pictures, 0);
+  large.passOn();
+  file.finish();
+  const std::string page = slurp(folder / "large.html");
+  EXPECT_FALSE(contains(page, "data:image"));
+  EXPECT_TRUE(contains(page, "src=\"view-1.png\""));
+  EXPECT_TRUE(contains(page, "files beside it"));
+}
+
 TEST(Page, SameInputGivesTheSameBytes) {
   EXPECT_EQ(written(syntheticReport(3), "same"), written(syntheticReport(3), "same"));
 }

@@ -67,6 +67,7 @@ ReplayCheck replayed(const Otherwise& otherwise) {
 
 TEST(ReplayCheck, TheSameArithmeticGivesTheSameBits) {
   const ReplayCheck check = replayed({});
+  EXPECT_EQ(check.recorded, kTicks);
   EXPECT_EQ(check.ticks, kTicks);
   EXPECT_EQ(check.different, 0);
   EXPECT_EQ(check.likeness(), Likeness::same_bits);

@@ -126,12 +126,16 @@ std::string readPng(const std::filesystem::path& file) {
   return bytes.starts_with("\x89PNG\r\n\x1a\n") ? bytes : "";
 }
 
-void writeOne(Html& html, const Picture& picture) {
+void writeOne(Html& html, const Picture& picture, bool beside) {
   const auto figure = html.in("figure", {{"class", "picture"}});
   const std::string bytes = readPng(picture.file);
   if (bytes.empty()) {
     html.element("p", {{"class", "missing"}},
                  "The picture " + picture.file.filename().string() + " could not be read.");
+  } else if (beside) {
+    html.empty(
+        "img",
+        {{"src", picture.file.filename().string()}, {"alt", picture.caption}, {"loading", "lazy"}});
   } else {
     html.empty("img",
                {{"src", "data:image/png;base64," + base64(bytes)}, {"alt", picture.caption}});
@@ -143,12 +147,17 @@ void writeOne(Html& html, const Picture& picture) {
 
 }  // namespace
 
-void writePictures(Html& html, const std::vector<Picture>& pictures) {
+void writePictures(Html& html, const std::vector<Picture>& pictures, std::size_t carried) {
   if (pictures.empty()) return;
+  const bool beside = html.size() > carried;
   html.element("h3", "Pictures");
+  if (beside)
+    html.element("p", {{"class", "muted small"}},
+                 "This page is large already: it shows these pictures from the files beside it, in "
+                 "the session's folder.");
   const auto grid = html.in("div", {{"class", "pictures"}});
   for (const Picture& picture : pictures) {
-    writeOne(html, picture);
+    writeOne(html, picture, beside);
     html.passOn();
   }
 }

@@ -80,9 +80,15 @@ void writeDataTable(Html& html, const DataTable& table);
 /// The same always open.
 void writeOpenTable(Html& html, const DataTable& table);
 
-/// The pictures with caption and moment, embedded. One that cannot be read (or is no PNG) is named
-/// in its place: a lost picture must not cost the report.
-void writePictures(Html& html, const std::vector<Picture>& pictures);
+/// What a page carries in itself, bytes: some fifty trials. Larger ones a browser opens slowly or
+/// not at all.
+inline constexpr std::size_t kCarried = 200'000'000;
+
+/// The pictures with caption and moment, embedded; from `carried` on they are shown from their
+/// files, which must lie beside the page, and this is said. One that cannot be read (or is no PNG)
+/// is named in its place: a lost picture must not cost the report.
+void writePictures(Html& html, const std::vector<Picture>& pictures,
+                   std::size_t carried = kCarried);
 
 /// Shortest digits that read back to the same bits; for files.
 std::string shortest(double value);
