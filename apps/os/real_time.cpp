@@ -23,7 +23,7 @@ namespace {
 constexpr int kFifoPriority = 80;
 constexpr int kServerNice = 15;
 constexpr int kMemoryPools = 2;
-constexpr int kLargeMemory = 512 * 1024;    // bytes
+constexpr int kLargeMemory = 512 * 1024, kSpareMemory = 16 * 1024 * 1024;  // bytes
 constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
 constexpr std::size_t kPage = 4096;         // the smallest there is
 
@@ -98,7 +98,12 @@ std::thread startThread(std::function<void()> work) {
 
 void shareMemoryPools() { mallopt(M_ARENA_MAX, kMemoryPools); }
 
-void giveLargeMemoryBack() { mallopt(M_MMAP_THRESHOLD, kLargeMemory); }
+void giveLargeMemoryBack() {
+  mallopt(M_MMAP_THRESHOLD, kLargeMemory);
+  // With the first, the C library no longer chooses this by itself: at its 128 kB, what small
+  // pieces need would be fetched and given back at every picture.
+  mallopt(M_TRIM_THRESHOLD, kSpareMemory);
+}
 
 void giveWay() { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kServerNice); }
 
