@@ -1,18 +1,22 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <string>
 
 #include "apps/os/child_process.h"
+#include "apps/os/real_time.h"
 #include "apps/os/signals.h"
 #include "apps/os/socket.h"
 #include "apps/os/system_time.h"
 #include "apps/os/worker_processes.h"
+#include "tests/support/counts.h"
 #include "tests/support/scratch_folder.h"
 
 namespace palpa::os {
@@ -202,6 +206,22 @@ TEST(Signals, AFilePastItsLimitFailsInPlaceOfEndingTheProgram) {
     ::_exit(::write(file, much.data(), 1) < 0 && errno == EFBIG ? 0 : 5);
   };
   EXPECT_EXIT(written(), testing::ExitedWithCode(0), "");
+}
+
+/// In a process of its own: the setting stays.
+TEST(Memory, LargePiecesGoBackAsSoonAsTheyAreFree) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer has its own memory";
+  const auto given_back = [] {
+    void* volatile piece = std::malloc(8 << 20);
+    std::free(piece);  // as is usual, pieces up to this size are kept from now on
+    giveLargeMemoryBack();
+    const std::size_t before = mallinfo2().hblks;
+    piece = std::malloc(1 << 20);
+    if (mallinfo2().hblks != before + 1) ::_exit(3);
+    std::free(piece);
+    ::_exit(mallinfo2().hblks == before ? 0 : 4);
+  };
+  EXPECT_EXIT(given_back(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
