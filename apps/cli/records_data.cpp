@@ -59,7 +59,7 @@ void backUpRecords(const RecordsOptions& o) {
   if (const std::error_code problem = os::createNew(part))
     failFile("cannot be written", o.out, problem);
   const PassingFile beside(part);
-  record::RecordStore(o.url);  // who was deleted, and came back with a backup, is not in this one
+  { const record::RecordStore opened(o.url); }  // deletes again who came back with a backup
   const std::size_t rows = copied(o.url, beside.name());
   std::error_code problem;
   fs::rename(beside.name(), o.out, problem);

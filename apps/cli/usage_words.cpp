@@ -181,7 +181,7 @@ std::string wrongNumberOfValues(const CLI::Option& option) {
 
 std::string unreadValue(const CLI::Option& option) {
   if (takesNothing(option)) return option.get_name() + " stands alone, without a value";
-  const std::vector<std::string> values = option.results();
+  const std::vector<std::string>& values = option.results();
   const bool number = describe(option).value == "NUMBER";
   return option.get_name() + (number ? " needs a number that fits it, not " : " cannot be ") +
          quoted(values.empty() ? "" : values.back());

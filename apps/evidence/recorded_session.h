@@ -95,7 +95,7 @@ inline Likeness worse(Likeness a, Likeness b) { return a < b ? b : a; }
 
 /// Outcome of running every recorded tick again.
 struct ReplayCheck {
-  std::int64_t recorded = 0;   ///< ticks of each tool in the record
+  std::int64_t recorded = 0;   ///< ticks in the record; of two tools, both
   std::int64_t ticks = 0;      ///< run again: from the first keyframe on, but for gaps
   std::int64_t different = 0;  ///< not the same bits; from the next keyframe on, its state counts
   std::int64_t changed = 0;    ///< of these: by more than rounding

@@ -120,7 +120,7 @@ struct LeftSession {
 
 fs::path evidenceOf(const fs::path& given) {
   std::error_code none;
-  const fs::path file = wholePath(fs::is_directory(given, none) ? given / kEvidenceName : given);
+  fs::path file = wholePath(fs::is_directory(given, none) ? given / kEvidenceName : given);
   if (!fs::is_regular_file(file, none))
     throw UsageError("is not there", file.string(),
                      "Give the folder of a session, or its session.palpa; palpa finish alone lists "

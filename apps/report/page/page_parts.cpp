@@ -153,8 +153,8 @@ void writePictures(Html& html, const std::vector<Picture>& pictures, std::size_t
   html.element("h3", "Pictures");
   if (beside)
     html.element("p", {{"class", "muted small"}},
-                 "This page is large already: it shows these pictures from the files beside it, in "
-                 "the session's folder.");
+                 "This page is large already: these pictures are in the files beside it. Open it "
+                 "in the session's folder to see them.");
   const auto grid = html.in("div", {{"class", "pictures"}});
   for (const Picture& picture : pictures) {
     writeOne(html, picture, beside);
