@@ -79,6 +79,18 @@ CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std:
   return view;
 }
 
+/// Without a picture: what goes on from the points is the same.
+CameraView CameraActivity::find(std::int64_t t_ns, std::uint64_t number) {
+  CameraView view;
+  view.t_exposure_ns = t_ns;
+  view.number = number;
+  view.source = "tracking model";
+  view.pose = tracker_.take(settings_.finder(t_ns, number), t_ns);
+  view.X_CW = poseAt(tracker_.track(), t_ns);
+  view.tracking = tracker_.state();
+  return view;
+}
+
 void CameraActivity::track(const cv::Mat& image, CameraView* view) {
   if (!settings_.photographs) view->fault = health_.judge(image, view->t_exposure_ns);
   if (view->fault == ar::PictureFault::wrong_size) return;
@@ -129,6 +141,18 @@ std::int64_t CameraActivity::publish(const CameraView& view, std::int64_t expose
                                               : exposed_ns + settings_.period_ns;
 }
 
+/// The work of one picture, with its inputs as they are now. A model's is too little for a thread.
+std::future<CameraView> CameraActivity::begin(std::int64_t now_ns, std::uint64_t number) {
+  if (settings_.finder) {
+    std::promise<CameraView> found;
+    found.set_value(find(now_ns, number));
+    return found.get_future();
+  }
+  return beside_.start([this, exposure = expose_(now_ns, number), now_ns, number] {
+    return see(exposure, now_ns, number);
+  });
+}
+
 std::int64_t CameraActivity::step(std::int64_t now_ns) {
   if (settings_.mode == TimeMode::real) {
     const CameraView view = see(expose_(now_ns, number_), now_ns, number_);
@@ -139,10 +163,7 @@ std::int64_t CameraActivity::step(std::int64_t now_ns) {
     return publish(pending_.get(), exposed_ns_,
                    now_ns);  // time to show what was exposed `latency_ns` ago
   exposed_ns_ = now_ns;
-  pending_ = beside_.start([this, exposure = expose_(now_ns, number_), now_ns, number = number_] {
-    return see(exposure, now_ns, number);
-  });
-  ++number_;
+  pending_ = begin(now_ns, number_++);
   return now_ns + settings_.latency_ns;
 }
 

@@ -32,6 +32,9 @@ class CameraActivity final : public Activity {
     bool photographs = false;  ///< each picture stands for itself: no motion between them
     /// X_CW comes by `Bus::tracker_to_camera`; the table's board is not looked for
     std::optional<Tracking> tracked{};
+    /// In place of pictures (virtual time): the points of the table's board that would be found in
+    /// one exposed now. The exposer is not asked.
+    std::function<std::vector<ar::BoardPoint>(std::int64_t now_ns, std::uint64_t number)> finder{};
     /// looked for besides the table's, each with a motion of its own
     std::vector<std::shared_ptr<const ar::Board>> others{};
   };
@@ -50,6 +53,8 @@ class CameraActivity final : public Activity {
 
  private:
   CameraView see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number);
+  CameraView find(std::int64_t t_ns, std::uint64_t number);
+  std::future<CameraView> begin(std::int64_t now_ns, std::uint64_t number);
   void track(const cv::Mat& image, CameraView* view);
   void follow(CameraView* view);
   std::int64_t publish(const CameraView& view, std::int64_t exposed_ns, std::int64_t now_ns);

@@ -111,18 +111,33 @@ Pose trueSample(const station::Station& station, std::uint64_t seed) {
   return X;
 }
 
-/// A camera on a boom on the trainee's side, looking between board and patient.
-Pose cameraOnBoom(const station::Station& station, std::uint64_t seed) {
-  RandomStream random(seed, "bench.boom");
-  const double distance =
-      kMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
-             station.file.number("twin/camera_distance_spread_mm", 0, 500) * random.normal());
-  const Vec3 p_WC = distance * Vec3(0.04 * random.normal(), -0.48, 0.877).normalized();
+Pose boomView(double distance, double aside) {
+  const Vec3 p_WC = distance * Vec3(aside, -0.48, 0.877).normalized();
   const Vec3 forward = (Vec3(0, 0.125, 0.02) - p_WC).normalized();
   const Vec3 right = forward.cross(Vec3::UnitZ()).normalized();
   Mat3 R_WC;
   R_WC << right, forward.cross(right), forward;
   return makePose(R_WC, p_WC).inverse();
+}
+
+Pose cameraOnBoom(const station::Station& station, std::uint64_t seed) {
+  RandomStream random(seed, "bench.boom");
+  const double distance =
+      kMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
+             station.file.number("twin/camera_distance_spread_mm", 0, 500) * random.normal());
+  return boomView(distance, 0.04 * random.normal());
+}
+
+Pose swayed(const Pose& X_CW_boom, double sway, std::int64_t t_ns) {
+  const double t = static_cast<double>(t_ns) * 1e-9;
+  Pose X = X_CW_boom;
+  X.translation() += sway * Vec3(std::sin(2 * std::numbers::pi * 0.23 * t),
+                                 std::sin(2 * std::numbers::pi * 0.17 * t + 1), 0);
+  return X;
+}
+
+double boomSway(const station::Station& station) {
+  return kMm * station.file.number("twin/camera_sway_mm", 0, 100);
 }
 
 }  // namespace palpa::twin

@@ -26,7 +26,13 @@ SensorTruth trueSensor(const station::Station& station, std::uint64_t seed);
 /// For a station with a sample: where it truly lies.
 Pose trueSample(const station::Station& station, std::uint64_t seed);
 
-/// X_CW of a camera on a boom on the trainee's side, looking between board and patient.
+/// X_CW of a camera on a boom on the trainee's side, looking between board and patient; `distance`,
+/// m, from the board; `aside`: to its right, a share of that.
+Pose boomView(double distance, double aside);
+/// Where the station's stands.
 Pose cameraOnBoom(const station::Station& station, std::uint64_t seed);
+/// The boom sways a little: two slow sines of `sway`, m.
+Pose swayed(const Pose& X_CW_boom, double sway, std::int64_t t_ns);
+double boomSway(const station::Station& station);  ///< m
 
 }  // namespace palpa::twin

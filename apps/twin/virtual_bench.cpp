@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "anatomy/base/quantile.h"
@@ -114,7 +113,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
         station(setup.station),
         camera_faults(readCameraFaults(setup.station.file)),
         board_moves(readBoardMoves(setup.station)),
-        sway(kMm * setup.station.file.number("twin/camera_sway_mm", 0, 100)),
+        sway(boomSway(setup.station)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
         real_thing(std::move(setup.real_thing)),
         on_word(std::move(setup.on_word)) {
@@ -197,14 +196,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
     for (std::size_t t = 0; t < tools.size(); ++t) tools[t].touch(touches[t]);
   }
 
-  /// The boom sways a little: two slow sines.
-  Pose X_CW(std::int64_t t_ns) const {
-    const double t = static_cast<double>(t_ns) * 1e-9;
-    Pose X = X_CW_boom;
-    X.translation() += sway * Vec3(std::sin(2 * std::numbers::pi * 0.23 * t),
-                                   std::sin(2 * std::numbers::pi * 0.17 * t + 1), 0);
-    return X;
-  }
+  Pose X_CW(std::int64_t t_ns) const { return swayed(X_CW_boom, sway, t_ns); }
 
   runtime::Bus& bus;
   Pose X_WD_believed, X_ET_believed, X_WD_true, X_ET_true;

@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/base/error.h"
-#include "ar/boards/charuco_layout.h"
 #include "ar/boards/gray_picture.h"
+#include "ar/boards/opencv_aruco.h"
 #include "ar/boards/sheet.h"
 
 namespace palpa::ar {

@@ -11,6 +11,18 @@
 #include "ar/tracking/pose_filter.h"
 
 namespace palpa::ar {
+
+SeenPoint seenPoint(const Pose& X_CW, const Vec3& p_W, const calibration::CameraModel& camera) {
+  const Vec3 turned = X_CW.linear() * p_W;
+  Eigen::Matrix<double, 2, 3> d_pixel;
+  SeenPoint seen;
+  seen.pixel = camera.project(turned + X_CW.translation(), &d_pixel);
+  for (int row = 0; row < 2; ++row)  // d (w x Rp) = -[Rp] dw
+    seen.by_pose.row(row).head<3>() = turned.cross(d_pixel.row(row).transpose()).transpose();
+  seen.by_pose.rightCols<3>() = d_pixel;
+  return seen;
+}
+
 namespace {
 
 using calibration::CameraModel;
@@ -25,25 +37,23 @@ NormalEquations linearise(const Pose& X_CW, const std::vector<BoardPoint>& point
                           const CameraModel& camera) {
   NormalEquations normal;
   for (const BoardPoint& point : points) {
-    const Vec3 turned = X_CW.linear() * point.p_W;
-    Eigen::Matrix<double, 2, 3> d_pixel;
-    const Eigen::Vector2d pixel = camera.project(turned + X_CW.translation(), &d_pixel);
-    Eigen::Matrix<double, 2, 6> J;  // d (w x Rp) = -[Rp] dw
-    for (int row = 0; row < 2; ++row)
-      J.row(row).head<3>() = turned.cross(d_pixel.row(row).transpose()).transpose();
-    J.rightCols<3>() = d_pixel;
-    const Eigen::Vector2d residual = point.pixel - pixel;
-    normal.A += J.transpose() * J;
-    normal.b += J.transpose() * residual;
+    const SeenPoint seen = seenPoint(X_CW, point.p_W, camera);
+    const Eigen::Vector2d residual = point.pixel - seen.pixel;
+    normal.A += seen.by_pose.transpose() * seen.by_pose;
+    normal.b += seen.by_pose.transpose() * residual;
     normal.cost += residual.squaredNorm();
   }
   return normal;
 }
 
-}  // namespace
-
-RefinedPose refinePose(const Pose& start, const std::vector<BoardPoint>& points,
-                       const CameraModel& camera) {
+/// `hopeless`: a cost that the solution must come near to be of use; where it cannot, it is left as
+/// soon as that is clear.
+RefinedPose refined(const Pose& start, const std::vector<BoardPoint>& points,
+                    const CameraModel& camera,
+                    double hopeless = std::numeric_limits<double>::infinity()) {
+  // A step promises b' step. Steps of a solution with large residuals shrink slowly, but not so
+  // slowly that all later ones together bring a hundred times as much.
+  constexpr double kAllLaterSteps = 100;
   Pose X = start;
   NormalEquations normal = linearise(X, points, camera);
   double damping = 1e-4;
@@ -52,6 +62,7 @@ RefinedPose refinePose(const Pose& start, const std::vector<BoardPoint>& points,
     Matrix6 A = normal.A;
     A.diagonal() *= 1 + damping;
     const Vector6 step = A.ldlt().solve(normal.b);
+    if (normal.cost - kAllLaterSteps * normal.b.dot(step) > hopeless) break;
     const Pose next = stepped(X, step);
     const NormalEquations there = linearise(next, points, camera);
     const bool better = there.cost <= normal.cost;  // false when not a number
@@ -64,6 +75,13 @@ RefinedPose refinePose(const Pose& start, const std::vector<BoardPoint>& points,
   return {X, normal.A, std::sqrt(normal.cost / double(points.size())), iterations};
 }
 
+}  // namespace
+
+RefinedPose refinePose(const Pose& start, const std::vector<BoardPoint>& points,
+                       const CameraModel& camera) {
+  return refined(start, points, camera);
+}
+
 namespace {
 
 using calibration::CameraModel;
@@ -72,6 +90,9 @@ constexpr double kGrossError_px = 5;  // far beyond corner noise and imperfect i
 constexpr double kThinnest = 1e-3;    // narrow side to long side; below it points are a line
 constexpr double kSameSolution =
     1e-4;  // relative; refinement repeats to 1e-9, two solutions differ by degrees
+// Beyond this a second solution is no rival of the first, by whatever noise of its pixels: it is
+// not refined to its end. Chi-squared of 100 for corners of 1 px.
+constexpr double kFarWorse = 4, kFarAbove_px2 = 100;
 
 /// Points on the board and on the picture's plane at unit depth, lens distortion taken out.
 struct PlanarPairs {
@@ -160,10 +181,14 @@ bool seesFront(const Pose& X_CW, const std::vector<BoardPoint>& points) {
 std::vector<RefinedPose> refinedSolutions(const std::vector<BoardPoint>& points,
                                           const CameraModel& camera) {
   std::vector<RefinedPose> solutions;
+  double hopeless = std::numeric_limits<double>::infinity();
   for (const Pose& start : planarSolutions(points, camera)) {
     if (!seesFront(start, points)) continue;
-    const RefinedPose refined = refinePose(start, points, camera);
-    if (seesFront(refined.X_CW, points)) solutions.push_back(refined);
+    const RefinedPose one = refined(start, points, camera, hopeless);
+    if (!seesFront(one.X_CW, points)) continue;
+    solutions.push_back(one);
+    const double cost = one.rms_px * one.rms_px * double(points.size());
+    hopeless = std::min(hopeless, kFarWorse * cost + kFarAbove_px2);
   }
   std::sort(solutions.begin(), solutions.end(),
             [](const RefinedPose& a, const RefinedPose& b) { return a.rms_px < b.rms_px; });

@@ -17,6 +17,13 @@ struct RefinedPose {
   int iterations = 0;
 };
 
+/// A point of the board in the picture, and its derivative by the pose, px per rad and m.
+struct SeenPoint {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 6> by_pose;
+};
+SeenPoint seenPoint(const Pose& X_CW, const Vec3& p_W, const calibration::CameraModel& camera);
+
 /// Levenberg-Marquardt over the reprojection error (Hartley & Zisserman 2004, A6.2):
 ///   min sum |pixel_i - project(X_CW p_i)|^2,   X_CW <- (exp([w]) R, t + v)
 /// The damping scales the diagonal of J^T J. Stops when a step is below 1e-12 or after 50 steps.
@@ -28,7 +35,8 @@ struct BoardPose {
   Pose X_CW = Pose::Identity();
   Eigen::Matrix<double, 6, 6> covariance;  ///< of (rotation vector, translation) in C, rad and m
   double rms_px = 0;  ///< reprojection error: root of the mean squared distance
-  /// of the second solution of the planar pose; infinite when there is none
+  /// of the second solution of the planar pose; infinite when there is none. Of one that fits far
+  /// worse (twice the error and more) an upper bound
   double rms_other_px = 0;
   int points = 0;    ///< used
   int rejected = 0;  ///< left out because they fit no plane with the others

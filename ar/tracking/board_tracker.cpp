@@ -115,6 +115,19 @@ std::optional<BoardPose> BoardTracker::see(const cv::Mat& image, std::int64_t t_
     points = board_.detect(image);
     pose = believable(points, t_ns);
   }
+  return conclude(points, std::move(pose), t_ns);
+}
+
+std::optional<BoardPose> BoardTracker::take(const std::vector<BoardPoint>& points,
+                                            std::int64_t t_ns) {
+  if (!settings_.motion) track_.forget();
+  region_ = {};
+  return conclude(points, believable(points, t_ns), t_ns);
+}
+
+/// What a picture means for the track.
+std::optional<BoardPose> BoardTracker::conclude(const std::vector<BoardPoint>& points,
+                                                std::optional<BoardPose> pose, std::int64_t t_ns) {
   if (pose && !track_.add(pose->X_CW, scaled(*pose), t_ns)) pose.reset();
   if (pose) learn(points, *pose);
   const bool predicted = track_.at(t_ns).how != Lookup::none;

@@ -35,6 +35,8 @@ class BoardTracker {
   /// Pose of the board in the picture exposed at `t_ns`, as it was measured there; nothing where it
   /// is not seen.
   std::optional<BoardPose> see(const cv::Mat& image, std::int64_t t_ns);
+  /// The same with the points that were found in that picture.
+  std::optional<BoardPose> take(const std::vector<BoardPoint>& points, std::int64_t t_ns);
 
   TrackState state() const { return state_; }
   /// The filtered pose at any time; its covariance is by the pixel noise that the pictures
@@ -48,6 +50,8 @@ class BoardTracker {
   std::optional<BoardPose> believable(const std::vector<BoardPoint>& points,
                                       std::int64_t t_ns) const;
   Matrix6 scaled(const BoardPose& pose) const;
+  std::optional<BoardPose> conclude(const std::vector<BoardPoint>& points,
+                                    std::optional<BoardPose> pose, std::int64_t t_ns);
   void learn(const std::vector<BoardPoint>& points, const BoardPose& pose);
 
   const Board& board_;

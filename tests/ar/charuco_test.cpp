@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "anatomy/base/error.h"
-#include "ar/boards/charuco_layout.h"
+#include "ar/boards/opencv_aruco.h"
 #include "tests/ar/lens.h"
 
 namespace palpa::ar {

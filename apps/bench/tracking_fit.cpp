@@ -1,0 +1,372 @@
+#include "apps/bench/tracking_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "anatomy/base/random.h"
+#include "apps/twin/bench_truth.h"
+#include "apps/twin/virtual_camera.h"
+#include "ar/tracking/board_tracker.h"
+
+namespace palpa::bench {
+namespace {
+
+using ar::Matrix6;
+using ar::Vector6;
+using twin::TrackingFigures;
+constexpr std::size_t kTerms = 1 + TrackingFigures::kWaves;  ///< what lasts, and the waves
+using Terms = Eigen::Matrix<double, int(kTerms), 1>;
+
+/// Whether a tag of this width was found.
+struct TagChance {
+  double width = 0;
+  bool found = false;
+};
+
+struct FitPicture {
+  Vector6 z = Vector6::Zero();
+  Eigen::Vector2d origin;  ///< of the pattern, px
+  double misses = 0, freedom = 0;
+  std::vector<TagChance> tags;
+  bool good = false;  ///< enough tags for a pose
+};
+
+FitPicture taken(const twin::VirtualCamera& camera, const ar::Board& board,
+                 const ar::TagGridSpec& spec, const Pose& X, std::uint64_t number) {
+  const std::vector<ar::BoardPoint> points = board.detect(camera.render(X, number));
+  FitPicture picture;
+  picture.origin = camera.truth().project(X.translation());
+  std::set<std::pair<double, double>> found;
+  for (const ar::BoardPoint& point : points) found.emplace(point.p_W.x(), point.p_W.y());
+  for (int i = 0; i < spec.columns * spec.rows; ++i) {
+    const std::array<Vec3, 4> places = ar::tagCorners(spec, spec.first_id + i);
+    std::array<Eigen::Vector2d, 4> pixels;
+    for (std::size_t c = 0; c < 4; ++c) pixels[c] = camera.truth().project(X * places[c]);
+    picture.tags.push_back(
+        {twin::narrowest(pixels), found.count({places[0].x(), places[0].y()}) > 0});
+  }
+  constexpr std::size_t kEnough = 16;
+  picture.good = points.size() >= kEnough;
+  if (!picture.good) return picture;
+  const ar::RefinedPose pose = ar::refinePose(X, points, camera.truth());
+  picture.z = Eigen::LLT<Matrix6>(pose.information).matrixU() * ar::difference(pose.X_CW, X);
+  picture.freedom = 2 * double(points.size()) - 6;
+  picture.misses = pose.rms_px * pose.rms_px * double(points.size());
+  return picture;
+}
+
+/// Pictures of one view; the last of them are the first once more.
+using FitView = std::vector<FitPicture>;
+
+FitView viewOf(const twin::VirtualCamera& camera, const ar::Board& board,
+               const ar::TagGridSpec& spec, const Pose& X, const TrackingFit& fit,
+               RandomStream& random) {
+  const double pixel = X.translation().norm() / camera.truth().fx;  // m on the board
+  std::vector<Pose> poses;
+  for (int i = 0; i < fit.pictures; ++i) {
+    poses.push_back(X);
+    poses.back().translation() += pixel * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0);
+  }
+  FitView view;
+  for (int i = 0; i < fit.pictures + fit.repeated; ++i)
+    view.push_back(taken(camera, board, spec, poses[std::size_t(i % fit.pictures)],
+                         std::uint64_t(random.bits() >> 40)));
+  return view;
+}
+
+/// Least squares with terms that are not negative: those that would be are left out.
+Terms notNegative(const Eigen::Matrix<double, int(kTerms), int(kTerms)>& A, const Terms& b) {
+  std::vector<Eigen::Index> in;
+  for (Eigen::Index i = 0; i < A.rows(); ++i) in.push_back(i);
+  while (!in.empty()) {
+    const Eigen::Index n = Eigen::Index(in.size());
+    Eigen::MatrixXd part(n, n);
+    Eigen::VectorXd right(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      right[i] = b[in[std::size_t(i)]];
+      for (Eigen::Index j = 0; j < n; ++j) part(i, j) = A(in[std::size_t(i)], in[std::size_t(j)]);
+    }
+    const Eigen::VectorXd x = part.ldlt().solve(right);
+    Eigen::Index worst = 0;
+    if (x.minCoeff(&worst) >= 0) {
+      Terms all = Terms::Zero();
+      for (Eigen::Index i = 0; i < n; ++i) all[in[std::size_t(i)]] = x[i];
+      return all;
+    }
+    in.erase(in.begin() + worst);
+  }
+  return Terms::Zero();
+}
+
+/// How the products of two pictures' errors fall with what lies between them on the pixels.
+Terms termsBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  Terms terms;
+  terms[0] = 1;
+  const Eigen::Vector2d apart = 2 * std::numbers::pi * (a - b);
+  for (int h = 1; h < int(kTerms); ++h)
+    terms[h] = 0.5 * (std::cos(h * apart.x()) + std::cos(h * apart.y()));
+  return terms;
+}
+
+/// What is left of the errors besides the bias, by its parts.
+void fitSpread(const std::vector<FitView>& views, const std::vector<Vector6>& bias_of_view,
+               TrackingFigures::Distance* out) {
+  Eigen::Matrix<double, int(kTerms), int(kTerms)> A = decltype(A)::Zero();
+  Eigen::Matrix<double, int(kTerms), 6> b = decltype(b)::Zero();
+  Vector6 squares = Vector6::Zero();
+  double pictures = 0, misses = 0, freedom = 0;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (std::size_t i = 0; i < views[v].size(); ++i) {
+      const FitPicture& one = views[v][i];
+      if (!one.good) continue;
+      const Vector6 left = one.z - bias_of_view[v];
+      squares += left.cwiseAbs2();
+      ++pictures;
+      misses += one.misses;
+      freedom += one.freedom;
+      for (std::size_t j = 0; j < i; ++j) {
+        if (!views[v][j].good) continue;
+        const Terms terms = termsBetween(one.origin, views[v][j].origin);
+        A += terms * terms.transpose();
+        b += terms * left.cwiseProduct(views[v][j].z - bias_of_view[v]).transpose();
+      }
+    }
+  out->corner_sigma = std::sqrt(misses / freedom);
+  for (int k = 0; k < 6; ++k) {
+    const Terms part = notNegative(A, b.col(k));
+    out->lasting[k] = std::sqrt(part[0]);
+    for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
+      out->wander[h][k] = std::sqrt(part[int(h) + 1]);
+    out->white[k] = std::sqrt(std::max(squares[k] / pictures - part.sum(), 0.0));
+  }
+}
+
+double normalShare(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+
+/// Where tags cease to be found: the largest likelihood of a normal threshold, by Fisher's scoring.
+void fitWidths(const std::vector<TagChance>& tags, TrackingFigures* out) {
+  constexpr double kSurelyFound = 25;  // px
+  double a = -15 / 1.5, b = 1 / 1.5;   // found: a + b width > a normal variate
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    Eigen::Matrix2d information = 1e-9 * Eigen::Matrix2d::Identity();
+    Eigen::Vector2d score = Eigen::Vector2d::Zero();
+    for (const TagChance& tag : tags) {
+      if (tag.width > kSurelyFound) continue;
+      const double x = a + b * tag.width;
+      const double share = std::clamp(normalShare(x), 1e-9, 1 - 1e-9),
+                   density = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi),
+                   weight = density / (share * (1 - share));
+      const Eigen::Vector2d by(1, tag.width);
+      score += weight * ((tag.found ? 1 : 0) - share) * by;
+      information += weight * density * by * by.transpose();
+    }
+    const Eigen::Vector2d step = information.ldlt().solve(score);
+    a += step[0];
+    b += step[1];
+  }
+  if (!(b > 1e-3)) return;  // every tag was found
+  out->least_width = -a / b;
+  out->width_spread = 1 / b;
+}
+
+/// Two pictures of the same pose disagree so often about a tag at x where this share of the
+/// variance is common to them.
+double disagreement(double x, double lasting) {
+  double sum = 0, weights = 0;
+  for (double phi = -4; phi <= 4; phi += 0.25) {
+    const double weight = std::exp(-phi * phi / 2),
+                 share = normalShare((x - std::sqrt(lasting) * phi) / std::sqrt(1 - lasting));
+    sum += weight * 2 * share * (1 - share);
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+void fitLasting(const std::vector<FitView>& views, int pictures, TrackingFigures* out) {
+  std::vector<double> at;
+  double differ = 0;
+  for (const FitView& view : views)
+    for (std::size_t i = std::size_t(pictures); i < view.size(); ++i)
+      for (std::size_t t = 0; t < view[i].tags.size(); ++t) {
+        const TagChance &first = view[i - std::size_t(pictures)].tags[t], &again = view[i].tags[t];
+        const double x = (first.width - out->least_width) / out->width_spread;
+        if (std::abs(x) > 3) continue;
+        at.push_back(x);
+        differ += first.found != again.found;
+      }
+  double low = 0, high = 0.99;
+  for (int i = 0; i < 12 && !at.empty(); ++i) {
+    const double middle = (low + high) / 2;
+    double expected = 0;
+    for (const double x : at) expected += disagreement(x, middle);
+    (expected > differ ? low : high) = middle;
+  }
+  out->width_lasting = at.empty() ? 0 : low;
+}
+
+TrackingFigures startOf(const station::Station& station, const TrackingFit& fit) {
+  TrackingFigures f;
+  f.width = station.design.camera.width;
+  f.height = station.design.camera.height;
+  f.fx = station.design.camera.fx;
+  f.decimate = station.decimate;
+  f.board = station.board;
+  const int steps = int(std::lround(fit.most_aside / fit.aside_step));
+  for (int i = -steps; i <= steps; ++i) f.aside.push_back(i * fit.aside_step);
+  return f;
+}
+
+}  // namespace
+
+TrackingFigures fitTracking(const station::Station& station, const TrackingFit& fit,
+                            const ShareDone& done) {
+  TrackingFigures figures = startOf(station, fit);
+  const auto board = ar::makeBoard(station.board, station.decimate);
+  std::vector<twin::VirtualCamera> cameras;
+  for (int i = 0; i < fit.views; ++i) {
+    const std::uint64_t seed = fit.seed + std::uint64_t(i);
+    cameras.emplace_back(twin::trueCamera(station, seed), station.board,
+                         twin::VirtualCameraSettings{}, seed);
+  }
+  RandomStream random(fit.seed, "bench.tracking_fit");
+  std::vector<FitView> all;
+  std::vector<TagChance> tags;
+  for (std::size_t d = 0; d < fit.distances.size(); ++d) {
+    std::vector<FitView> views;
+    std::vector<Vector6> bias_of_view;
+    TrackingFigures::Distance& out = figures.distances.emplace_back();
+    out.distance = fit.distances[d];
+    for (const double aside : figures.aside) {
+      Vector6 sum = Vector6::Zero();
+      double good = 0;
+      const double across = aside / std::sqrt(1 - aside * aside);  // as the boom is told
+      for (const twin::VirtualCamera& camera : cameras) {
+        const Pose X = twin::boomView(out.distance * random.uniform(0.99, 1.01), across);
+        views.push_back(viewOf(camera, *board, station.board, X, fit, random));
+        for (const FitPicture& picture : views.back()) {
+          tags.insert(tags.end(), picture.tags.begin(), picture.tags.end());
+          if (picture.good) sum += picture.z;
+          good += picture.good;
+        }
+      }
+      out.bias.push_back(sum / std::max(good, 1.0));
+      bias_of_view.insert(bias_of_view.end(), cameras.size(), out.bias.back());
+      if (done)
+        done((double(d) + double(out.bias.size()) / double(figures.aside.size())) /
+             double(fit.distances.size()));
+    }
+    fitSpread(views, bias_of_view, &out);
+    for (FitView& view : views) all.push_back(std::move(view));
+  }
+  fitWidths(tags, &figures);
+  fitLasting(all, fit.pictures, &figures);
+  return figures;
+}
+
+namespace {
+
+constexpr double kPicturesPerSecond = 15;
+
+std::vector<ar::BoardPoint> exactPoints(const ar::TagGridSpec& spec, const Pose& X,
+                                        const calibration::CameraModel& truth) {
+  std::vector<ar::BoardPoint> points;
+  for (int i = 0; i < spec.columns * spec.rows; ++i)
+    for (const Vec3& p_W : ar::tagCorners(spec, spec.first_id + i))
+      points.push_back({p_W, truth.project(X * p_W)});
+  return points;
+}
+
+}  // namespace
+
+TrackedSession trackedSession(const station::Station& station, std::uint64_t seed, int pictures,
+                              TrackedBy by, const TrackingFigures& figures) {
+  const calibration::CameraModel truth = twin::trueCamera(station, seed);
+  const auto board = ar::makeBoard(station.board, station.decimate);
+  std::optional<twin::VirtualCamera> camera;
+  if (by == TrackedBy::pictures)
+    camera.emplace(truth, station.board, twin::VirtualCameraSettings{}, seed);
+  const twin::TrackingModel model(figures, truth, seed);
+  ar::BoardTracker tracker(*board, station.camera);
+  const Pose boom = twin::cameraOnBoom(station, seed);
+  const double sway = twin::boomSway(station),
+               corners = 4.0 * station.board.columns * station.board.rows;
+  const Vec3 watched_W(0, 0.26, 0.1);
+  TrackedSession session;
+  for (; session.pictures < pictures; ++session.pictures) {
+    const auto number = std::uint64_t(session.pictures);
+    const std::int64_t t_ns = std::llround(1e9 / kPicturesPerSecond * session.pictures);
+    const Pose X = twin::swayed(boom, sway, t_ns);
+    const std::vector<ar::BoardPoint> points =
+        camera ? board->detect(camera->render(X, number)) : model.found(X, number);
+    session.tags_missed += 1 - double(points.size()) / corners;
+    const auto pose = tracker.take(points, t_ns);
+    const Pose exact = ar::refinePose(X, exactPoints(station.board, X, truth), station.camera).X_CW;
+    const auto errorOf = [&](const Pose& X_CW) {
+      return TrackedSession::Error{1e3 * (X_CW * watched_W - exact * watched_W),
+                                   1e3 * ar::difference(X_CW, exact).head<3>()};
+    };
+    if (pose) session.measured.push_back(errorOf(pose->X_CW));
+    const ar::PoseLookup filtered = tracker.track().at(t_ns);
+    if (filtered.how != ar::Lookup::none) session.filtered.push_back(errorOf(filtered.X));
+  }
+  return session;
+}
+
+namespace {
+
+struct RmsOf {
+  double squares = 0, n = 0;
+  void add(const Vec3& v) {
+    squares += v.squaredNorm();
+    ++n;
+  }
+  double value() const { return n > 0 ? std::sqrt(squares / n) : 0; }
+};
+
+}  // namespace
+
+PathFigures figuresOf(const std::vector<TrackedSession>& sessions) {
+  PathFigures figures;
+  RmsOf shift, turn, filtered_shift, filtered_turn;
+  std::array<double, kTrackingLags.size()> products{};
+  double squares = 0, pictures = 0, poses = 0;
+  for (const TrackedSession& session : sessions) {
+    Vec3 mean = Vec3::Zero();
+    const double n = std::max(double(session.measured.size()), 1.0);
+    for (const auto& e : session.measured) {
+      shift.add(e.shift_mm);
+      turn.add(e.turn_mrad);
+      mean += e.shift_mm / n;
+    }
+    for (const auto& e : session.filtered) {
+      filtered_shift.add(e.shift_mm);
+      filtered_turn.add(e.turn_mrad);
+    }
+    for (const auto& e : session.measured) squares += (e.shift_mm - mean).squaredNorm() / n;
+    for (std::size_t l = 0; l < kTrackingLags.size(); ++l) {
+      const auto lag = std::size_t(kTrackingLags[l]);
+      if (session.measured.size() <= lag) continue;
+      double sum = 0;
+      for (std::size_t i = lag; i < session.measured.size(); ++i)
+        sum += (session.measured[i].shift_mm - mean).dot(session.measured[i - lag].shift_mm - mean);
+      products[l] += sum / double(session.measured.size() - lag);
+    }
+    figures.tags_missed += session.tags_missed;
+    pictures += session.pictures;
+    poses += double(session.measured.size());
+  }
+  figures.shift_mm = shift.value();
+  figures.turn_mrad = turn.value();
+  figures.filtered_shift_mm = filtered_shift.value();
+  figures.filtered_turn_mrad = filtered_turn.value();
+  for (std::size_t l = 0; l < kTrackingLags.size(); ++l)
+    figures.autocorrelation[l] = squares > 0 ? products[l] / squares : 0;
+  figures.tags_missed /= std::max(pictures, 1.0);
+  figures.poses_missed = 1 - poses / std::max(pictures, 1.0);
+  return figures;
+}
+
+}  // namespace palpa::bench

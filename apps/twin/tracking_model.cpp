@@ -1,0 +1,274 @@
+#include "apps/twin/tracking_model.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "anatomy/base/error.h"
+#include "anatomy/base/units.h"
+#include "apps/twin/virtual_camera_picture.h"
+
+namespace palpa::twin {
+
+using ar::Matrix6;
+using ar::Vector6;
+
+namespace {
+
+constexpr int kVersion = 1;
+constexpr double kMostPx = 20;
+
+Vector6 sixNumbers(const JsonFile& file, const std::string& field) {
+  const std::vector<double> values = file.numbers(field);
+  if (values.size() != 6) file.refuse(field, "must be six numbers");
+  for (const double x : values)
+    if (!(std::abs(x) <= kMostPx)) file.refuse(field, "must be pixels, -20 to 20");
+  return Vector6::Map(values.data());
+}
+
+/// `count` groups of six.
+template <class Groups>
+void readGroups(const JsonFile& file, const std::string& field, std::size_t count, Groups* groups) {
+  const std::vector<double> values = file.numbers(field);
+  if (values.size() != 6 * count)
+    file.refuse(field, "must be " + std::to_string(6 * count) + " numbers");
+  for (const double x : values)
+    if (!(std::abs(x) <= kMostPx)) file.refuse(field, "must be pixels, -20 to 20");
+  for (std::size_t i = 0; i < count; ++i) (*groups)[i] = Vector6::Map(values.data() + 6 * i);
+}
+
+TrackingFigures::Distance readDistance(const JsonFile& file, std::size_t places) {
+  TrackingFigures::Distance one;
+  one.distance = kMm * file.number("distance_mm", 100, 3000);
+  one.corner_sigma = file.number("corner_sigma_px", 0, kMostPx);
+  one.bias.resize(places);
+  readGroups(file, "bias_px", places, &one.bias);
+  one.lasting = sixNumbers(file, "lasting_px");
+  one.white = sixNumbers(file, "white_px");
+  readGroups(file, "wander_px", TrackingFigures::kWaves, &one.wander);
+  return one;
+}
+
+template <class Of>
+void requireRising(const JsonFile& file, const std::string& field, std::size_t n, Of of) {
+  if (n < 2) file.refuse(field, "must have two entries or more");
+  for (std::size_t i = 1; i < n; ++i)
+    if (!(of(i) > of(i - 1))) file.refuse(field, "must rise from entry to entry");
+}
+
+}  // namespace
+
+TrackingFigures readTrackingFigures(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  file.needVersion(kVersion);
+  TrackingFigures f;
+  f.width = file.integer("camera/width_px", 16, 20000);
+  f.height = file.integer("camera/height_px", 16, 20000);
+  f.fx = file.number("camera/fx_px", 10, 1e6);
+  f.decimate = file.number("camera/decimate", 1, 8);
+  f.board.columns = file.integer("board/columns", 1, ar::kTagFamilySize);
+  f.board.rows = file.integer("board/rows", 1, ar::kTagFamilySize);
+  f.board.tag_size = kMm * file.number("board/tag_size_mm", 2, 2000);
+  f.board.spacing = kMm * file.number("board/spacing_mm", 0.1, 2000);
+  f.least_width = file.number("found/least_width_px", 0, 1000);
+  f.width_spread = file.number("found/width_spread_px", 1e-3, 1000);
+  f.width_lasting = file.number("found/lasting_share", 0, 1);
+  f.aside = file.numbers("aside");
+  requireRising(file, "aside", f.aside.size(), [&](std::size_t i) { return f.aside[i]; });
+  for (const JsonFile& entry : file.entries("distances"))
+    f.distances.push_back(readDistance(entry, f.aside.size()));
+  requireRising(file, "distances", f.distances.size(),
+                [&](std::size_t i) { return f.distances[i].distance; });
+  return f;
+}
+
+namespace {
+
+using nlohmann::json;
+
+/// As a file shows it: what is finer than a ten-thousandth of a pixel is chance.
+double rounded(double x) { return std::round(1e4 * x) / 1e4; }
+
+template <class Groups>
+json listOf(const Groups& groups) {
+  json all = json::array();
+  for (const Vector6& group : groups)
+    for (const double x : group) all.push_back(rounded(x));
+  return all;
+}
+
+}  // namespace
+
+json jsonOf(const TrackingFigures& f) {
+  json distances = json::array();
+  for (const TrackingFigures::Distance& d : f.distances)
+    distances.push_back({{"distance_mm", rounded(d.distance / kMm)},
+                         {"corner_sigma_px", rounded(d.corner_sigma)},
+                         {"bias_px", listOf(d.bias)},
+                         {"lasting_px", listOf(std::array<Vector6, 1>{d.lasting})},
+                         {"white_px", listOf(std::array<Vector6, 1>{d.white})},
+                         {"wander_px", listOf(d.wander)}});
+  return {
+      {"version", kVersion},
+      {"camera",
+       {{"width_px", f.width}, {"height_px", f.height}, {"fx_px", f.fx}, {"decimate", f.decimate}}},
+      {"board",
+       {{"columns", f.board.columns},
+        {"rows", f.board.rows},
+        {"tag_size_mm", rounded(f.board.tag_size / kMm)},
+        {"spacing_mm", rounded(f.board.spacing / kMm)}}},
+      {"found",
+       {{"least_width_px", rounded(f.least_width)},
+        {"width_spread_px", rounded(f.width_spread)},
+        {"lasting_share", rounded(f.width_lasting)}}},
+      {"aside", f.aside},
+      {"distances", distances}};
+}
+
+void requireFigures(const TrackingFigures& f, const station::Station& station) {
+  constexpr double kSameFocal = 0.05, kSame = 1e-6;  // shares
+  const auto same = [](double a, double b, double share) {
+    return std::abs(a - b) <= share * std::abs(b);
+  };
+  const calibration::CameraModel& camera = station.design.camera;
+  const ar::TagGridSpec &a = station.board, &b = f.board;
+  const double distance = kMm * station.file.number("twin/camera_distance_mm", 100, 3000);
+  const char* other = nullptr;
+  if (camera.width != f.width || camera.height != f.height || !same(camera.fx, f.fx, kSameFocal) ||
+      !same(station.decimate, f.decimate, kSame))
+    other = "camera";
+  else if (a.columns != b.columns || a.rows != b.rows || !same(a.tag_size, b.tag_size, kSame) ||
+           !same(a.spacing, b.spacing, kSame) || a.border_bits != b.border_bits ||
+           a.corner_squares != b.corner_squares)
+    other = "board";
+  else if (distance < f.distances.front().distance || distance > f.distances.back().distance)
+    other = "twin/camera_distance_mm";
+  if (other)
+    throw UsageError(
+        "is another than the one whose pictures the tracking model was measured on",
+        station.file.name() + ", " + other,
+        "Leave out --tracking model, or measure it: palpa bench tracking --fit --station FILE");
+}
+
+double narrowest(const std::array<Eigen::Vector2d, 4>& q) {
+  double longest = 1, area2 = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector2d &a = q[i], &b = q[(i + 1) % 4];
+    longest = std::max(longest, (b - a).norm());
+    area2 += a.x() * b.y() - a.y() * b.x();
+  }
+  return std::abs(area2) / 2 / longest;
+}
+
+PixelWave::PixelWave(RandomStream& random, int h) : turns_(2 * std::numbers::pi * h) {
+  for (double& a : amplitude_) a = random.normal() / std::numbers::sqrt2;
+}
+
+double PixelWave::at(const Eigen::Vector2d& pixel) const {
+  const double u = turns_ * pixel.x(), v = turns_ * pixel.y();
+  return amplitude_[0] * std::cos(u) + amplitude_[1] * std::sin(u) + amplitude_[2] * std::cos(v) +
+         amplitude_[3] * std::sin(v);
+}
+
+TrackingModel::TrackingModel(const TrackingFigures& figures, const calibration::CameraModel& truth,
+                             std::uint64_t seed)
+    : figures_(figures), truth_(truth), seed_(seed) {
+  RandomStream random(seed, "bench.tracking_model");
+  for (int i = 0; i < 6; ++i) {
+    lasting_[i] = random.normal();
+    for (int h = 1; h <= int(TrackingFigures::kWaves); ++h) wander_.emplace_back(random, h);
+  }
+  for (int i = 0; i < figures.board.columns * figures.board.rows; ++i)
+    tag_pixels_.emplace_back(random, 1);
+}
+
+std::vector<TrackingModel::Corner> TrackingModel::foundCorners(const Pose& X_CW,
+                                                               RandomStream& random) const {
+  const TrackingFigures& f = figures_;
+  const auto within = [&](const Eigen::Vector2d& q) {  // the picture's edges
+    return q.x() >= -0.5 && q.y() >= -0.5 && q.x() <= truth_.width - 0.5 &&
+           q.y() <= truth_.height - 0.5;
+  };
+  std::vector<Corner> all;
+  for (int i = 0; i < f.board.columns * f.board.rows; ++i) {
+    const double chance = random.normal();  // drawn for every tag, so that none shifts the others'
+    const std::array<Vec3, 4> places = ar::tagCorners(f.board, f.board.first_id + i);
+    std::array<ar::SeenPoint, 4> seen;
+    std::array<Eigen::Vector2d, 4> pixels;
+    for (std::size_t c = 0; c < 4; ++c) {
+      seen[c] = ar::seenPoint(X_CW, places[c], truth_);
+      pixels[c] = seen[c].pixel;
+    }
+    const double luck = std::sqrt(f.width_lasting) * tag_pixels_[std::size_t(i)].at(pixels[0]) +
+                        std::sqrt(1 - f.width_lasting) * chance;
+    const bool wide = narrowest(pixels) > f.least_width + f.width_spread * luck;
+    if (!wide || !std::all_of(pixels.begin(), pixels.end(), within)) continue;
+    for (std::size_t c = 0; c < 4; ++c) all.push_back({places[c], seen[c]});
+  }
+  return all;
+}
+
+namespace {
+
+/// Where x lies among rising numbers: the entry before it, and the share of the way to the next.
+template <class Of>
+std::pair<std::size_t, double> between(std::size_t n, double x, Of of) {
+  std::size_t i = 0;
+  while (i + 2 < n && x >= of(i + 1)) ++i;
+  return {i, std::clamp((x - of(i)) / (of(i + 1) - of(i)), 0.0, 1.0)};
+}
+
+}  // namespace
+
+Vector6 TrackingModel::error(const Pose& X_CW, RandomStream& random) const {
+  const Vec3 p_WC = X_CW.inverse().translation();
+  const auto [j, to_next] = between(figures_.aside.size(), p_WC.x() / p_WC.norm(),
+                                    [&](std::size_t k) { return figures_.aside[k]; });
+  const auto [i, farther] = between(figures_.distances.size(), p_WC.norm(),
+                                    [&](std::size_t k) { return figures_.distances[k].distance; });
+  const Eigen::Vector2d origin = truth_.project(X_CW.translation());
+  const auto errorAt = [&, j = j, to_next = to_next](const TrackingFigures::Distance& d,
+                                                     const Vector6& white) {
+    Vector6 z = (1 - to_next) * d.bias[j] + to_next * d.bias[j + 1] +
+                d.lasting.cwiseProduct(lasting_) + d.white.cwiseProduct(white);
+    for (int k = 0; k < 6; ++k)
+      for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
+        z[k] += d.wander[h][k] * wander_[std::size_t(k) * TrackingFigures::kWaves + h].at(origin);
+    return z;
+  };
+  Vector6 white;
+  for (double& w : white) w = random.normal();
+  return (1 - farther) * errorAt(figures_.distances[i], white) +
+         farther * errorAt(figures_.distances[i + 1], white);
+}
+
+std::vector<ar::BoardPoint> TrackingModel::found(const Pose& X_CW, std::uint64_t number) const {
+  RandomStream random(picture::randomBits(seed_, number), "bench.tracking_model.picture");
+  const std::vector<Corner> corners = foundCorners(X_CW, random);
+  const Vector6 z = error(X_CW, random);
+  const auto [i, farther] = between(figures_.distances.size(), X_CW.inverse().translation().norm(),
+                                    [&](std::size_t k) { return figures_.distances[k].distance; });
+  const double sigma = (1 - farther) * figures_.distances[i].corner_sigma +
+                       farther * figures_.distances[i + 1].corner_sigma;
+  Matrix6 A = Matrix6::Zero();
+  Vector6 b = Vector6::Zero();
+  std::vector<Eigen::Vector2d> misses;
+  for (const Corner& corner : corners) {
+    misses.push_back(sigma * Eigen::Vector2d(random.normal(), random.normal()));
+    A += corner.seen.by_pose.transpose() * corner.seen.by_pose;
+    b += corner.seen.by_pose.transpose() * misses.back();
+  }
+  std::vector<ar::BoardPoint> points;
+  const Eigen::LLT<Matrix6> information(A);
+  if (corners.empty() || information.info() != Eigen::Success) return points;
+  // Moved by z, and by what takes back how the misses would move the pose.
+  const Pose X_seen =
+      ar::stepped(X_CW, Vector6(information.matrixU().solve(z) - information.solve(b)));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    points.push_back({corners[k].p_W, truth_.project(X_seen * corners[k].p_W) + misses[k]});
+  return points;
+}
+
+}  // namespace palpa::twin

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/random.h"
+#include "apps/station/station_file.h"
+#include "ar/boards/board.h"
+#include "ar/tracking/board_pose.h"
+#include "ar/tracking/pose_filter.h"
+
+namespace palpa::twin {
+
+/// How far poses from pictures are off, and which tags are not found, as `palpa bench tracking
+/// --fit` measured it on pictures of one kind of camera and board, from the boom. Lengths in m, the
+/// rest in pixels.
+///
+/// The error e of a pose from n corners is stated as z = L' e, where L L' = A is the corners'
+/// information (the sum of J'J, J a pixel's derivative by the pose): in pixels, the same for
+/// corners far and near, many and few. z is the sum of
+///   bias      of the detector, by distance and place of the camera: edges that lie along rows or
+///             columns of pixels are found worse
+///   wander    by where the pattern lies on the sensor's pixels, which the camera's sway changes:
+///             for h = 1 ... 4 a random wave of period 1/h px along both axes
+///   lasting   drawn once
+///   white     drawn for each picture
+/// What misses the pose besides (`corner_sigma`) is white, and moves no pose.
+struct TrackingFigures {
+  static constexpr std::size_t kWaves = 4;
+  struct Distance {
+    double distance = 0;
+    double corner_sigma = 0;
+    std::vector<ar::Vector6> bias;  ///< at each of `aside`
+    ar::Vector6 lasting = ar::Vector6::Zero(), white = ar::Vector6::Zero();
+    std::array<ar::Vector6, kWaves> wander{};
+  };
+  // What was measured: a camera and a board
+  int width = 0, height = 0;
+  double fx = 0, decimate = 0;
+  ar::TagGridSpec board;
+  std::vector<double> aside;        ///< of the camera, to the board's right; share of the distance
+  std::vector<Distance> distances;  ///< rising
+  /// A tag is found that is wider than `least_width` at its narrowest, give or take a normal
+  /// variate of `width_spread`, of whose variance the share `width_lasting` comes from where the
+  /// tag lies on the pixels.
+  double least_width = 0, width_spread = 1, width_lasting = 0;
+};
+
+/// Throws UsageError with file and field.
+TrackingFigures readTrackingFigures(const std::filesystem::path& file);
+/// The same as data, without remarks.
+nlohmann::json jsonOf(const TrackingFigures& figures);
+
+/// Throws UsageError unless the station's camera, board and distance are those of the figures.
+void requireFigures(const TrackingFigures& figures, const station::Station& station);
+
+/// Half the width of a tag in a picture is seen along its diagonal; this is the least across it,
+/// px.
+double narrowest(const std::array<Eigen::Vector2d, 4>& corners);
+
+/// A random function of where something lies on the sensor, of period 1 px along both axes, mean 0,
+/// variance 1, for waves of period 1/h px.
+class PixelWave {
+ public:
+  PixelWave(RandomStream& random, int h);
+  double at(const Eigen::Vector2d& pixel) const;
+
+ private:
+  double turns_;
+  std::array<double, 4> amplitude_;
+};
+
+/// In place of the virtual camera: the points of the station's board that would be found in its
+/// pictures. A pure function of figures, true camera, board, seed, pose and number. Knows the
+/// truth, as the virtual camera does; what it returns is all that the program sees.
+class TrackingModel {
+ public:
+  TrackingModel(const TrackingFigures& figures, const calibration::CameraModel& truth,
+                std::uint64_t seed);
+
+  /// Pose of the board in the camera, number of the picture; empty: no tag is found.
+  std::vector<ar::BoardPoint> found(const Pose& X_CW_true, std::uint64_t number) const;
+
+ private:
+  struct Corner {
+    Vec3 p_W;
+    ar::SeenPoint seen;
+  };
+  std::vector<Corner> foundCorners(const Pose& X_CW, RandomStream& random) const;
+  ar::Vector6 error(const Pose& X_CW, RandomStream& random) const;
+
+  TrackingFigures figures_;
+  calibration::CameraModel truth_;
+  std::uint64_t seed_;
+  std::vector<PixelWave> wander_;      ///< kWaves for each of six
+  ar::Vector6 lasting_;                ///< standard normal
+  std::vector<PixelWave> tag_pixels_;  ///< one a tag
+};
+
+}  // namespace palpa::twin
