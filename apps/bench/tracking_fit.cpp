@@ -4,12 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 #include "anatomy/base/random.h"
+#include "anatomy/base/whole_file.h"
+#include "apps/bench/timing.h"
+#include "apps/bench/tracking_scene.h"
+#include "apps/station/assets.h"
 #include "apps/twin/bench_truth.h"
 #include "apps/twin/virtual_camera.h"
-#include "ar/tracking/board_tracker.h"
 
 namespace palpa::bench {
 namespace {
@@ -268,105 +273,98 @@ TrackingFigures fitTracking(const station::Station& station, const TrackingFit& 
 
 namespace {
 
-constexpr double kPicturesPerSecond = 15;
+void printFigures(const TrackingFigures& figures, const std::string& station) {
+  const nlohmann::json all = twin::jsonOf(figures);
+  for (const nlohmann::json& distance : all.at("distances")) {
+    nlohmann::json params = distance;
+    params.erase("corner_sigma_px");
+    params["data"] = "simulated";
+    print("tracking_model.corner_sigma", distance.at("corner_sigma_px"), "px", params);
+  }
+  nlohmann::json params = all.at("found");
+  params.erase("least_width_px");
+  params.update({{"data", "simulated"}, {"station", station}});
+  print("tracking_model.least_width", figures.least_width, "px", params);
+}
 
-std::vector<ar::BoardPoint> exactPoints(const ar::TagGridSpec& spec, const Pose& X,
-                                        const calibration::CameraModel& truth) {
-  std::vector<ar::BoardPoint> points;
-  for (int i = 0; i < spec.columns * spec.rows; ++i)
-    for (const Vec3& p_W : ar::tagCorners(spec, spec.first_id + i))
-      points.push_back({p_W, truth.project(X * p_W)});
-  return points;
+TrackingFit quickFit() {
+  TrackingFit fit;
+  fit.distances = {0.45, 1.0};
+  fit.most_aside = fit.aside_step = 0.12;
+  fit.views = 2;
+  fit.pictures = 3;
+  fit.repeated = 1;
+  return fit;
 }
 
 }  // namespace
 
-TrackedSession trackedSession(const station::Station& station, std::uint64_t seed, int pictures,
-                              TrackedBy by, const TrackingFigures& figures) {
-  const calibration::CameraModel truth = twin::trueCamera(station, seed);
-  const auto board = ar::makeBoard(station.board, station.decimate);
-  std::optional<twin::VirtualCamera> camera;
-  if (by == TrackedBy::pictures)
-    camera.emplace(truth, station.board, twin::VirtualCameraSettings{}, seed);
-  const twin::TrackingModel model(figures, truth, seed);
-  ar::BoardTracker tracker(*board, station.camera);
-  const Pose boom = twin::cameraOnBoom(station, seed);
-  const double sway = twin::boomSway(station),
-               corners = 4.0 * station.board.columns * station.board.rows;
-  const Vec3 watched_W(0, 0.26, 0.1);
-  TrackedSession session;
-  for (; session.pictures < pictures; ++session.pictures) {
-    const auto number = std::uint64_t(session.pictures);
-    const std::int64_t t_ns = std::llround(1e9 / kPicturesPerSecond * session.pictures);
-    const Pose X = twin::swayed(boom, sway, t_ns);
-    const std::vector<ar::BoardPoint> points =
-        camera ? board->detect(camera->render(X, number)) : model.found(X, number);
-    session.tags_missed += 1 - double(points.size()) / corners;
-    const auto pose = tracker.take(points, t_ns);
-    const Pose exact = ar::refinePose(X, exactPoints(station.board, X, truth), station.camera).X_CW;
-    const auto errorOf = [&](const Pose& X_CW) {
-      return TrackedSession::Error{1e3 * (X_CW * watched_W - exact * watched_W),
-                                   1e3 * ar::difference(X_CW, exact).head<3>()};
-    };
-    if (pose) session.measured.push_back(errorOf(pose->X_CW));
-    const ar::PoseLookup filtered = tracker.track().at(t_ns);
-    if (filtered.how != ar::Lookup::none) session.filtered.push_back(errorOf(filtered.X));
-  }
-  return session;
+void fitTrackingModel(const TrackingFitOptions& options) {
+  const station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/virtual_bench.json")
+                              : std::filesystem::path(options.station));
+  const TrackingFigures figures =
+      fitTracking(station, options.quick ? quickFit() : TrackingFit{}, options.done);
+  printFigures(figures, station.title);
+  nlohmann::json file = twin::jsonOf(figures);
+  file["about"] = "Errors of poses from simulated pictures, for sessions with --tracking model.";
+  file["source"] = "palpa bench tracking --fit, on pictures of the virtual camera (" +
+                   station.title + "), lenses of the seeds from " +
+                   std::to_string(TrackingFit{}.seed) + " on";
+  WholeFile written(options.file);
+  written.write(file.dump(1) + "\n");
+  written.finish();
 }
 
 namespace {
 
-struct RmsOf {
-  double squares = 0, n = 0;
-  void add(const Vec3& v) {
-    squares += v.squaredNorm();
-    ++n;
+double ratioOf(double model, double pictures) { return pictures > 0 ? model / pictures : 1; }
+
+void printComparison(const PathFigures& pictures, const PathFigures& model,
+                     const nlohmann::json& params) {
+  const std::tuple<const char*, double PathFigures::*, const char*> all[]{
+      {"shift_rms", &PathFigures::shift_mm, "mm"},
+      {"turn_rms", &PathFigures::turn_mrad, "mrad"},
+      {"filtered_shift_rms", &PathFigures::filtered_shift_mm, "mm"},
+      {"filtered_turn_rms", &PathFigures::filtered_turn_mrad, "mrad"},
+      {"tags_missed", &PathFigures::tags_missed, "1"},
+      {"poses_missed", &PathFigures::poses_missed, "1"}};
+  for (const auto& [name, figure, unit] : all) {
+    nlohmann::json both = params;
+    both.update({{"model", model.*figure}, {"pictures", pictures.*figure}, {"of", unit}});
+    print(std::string("tracking_model.") + name, ratioOf(model.*figure, pictures.*figure), "1",
+          both);
   }
-  double value() const { return n > 0 ? std::sqrt(squares / n) : 0; }
-};
+  for (std::size_t l = 0; l < kTrackingLags.size(); ++l) {
+    nlohmann::json both = params;
+    both.update({{"model", model.autocorrelation[l]},
+                 {"pictures", pictures.autocorrelation[l]},
+                 {"lag_pictures", kTrackingLags[l]}});
+    print("tracking_model.autocorrelation_difference",
+          model.autocorrelation[l] - pictures.autocorrelation[l], "1", both);
+  }
+}
 
 }  // namespace
 
-PathFigures figuresOf(const std::vector<TrackedSession>& sessions) {
-  PathFigures figures;
-  RmsOf shift, turn, filtered_shift, filtered_turn;
-  std::array<double, kTrackingLags.size()> products{};
-  double squares = 0, pictures = 0, poses = 0;
-  for (const TrackedSession& session : sessions) {
-    Vec3 mean = Vec3::Zero();
-    const double n = std::max(double(session.measured.size()), 1.0);
-    for (const auto& e : session.measured) {
-      shift.add(e.shift_mm);
-      turn.add(e.turn_mrad);
-      mean += e.shift_mm / n;
-    }
-    for (const auto& e : session.filtered) {
-      filtered_shift.add(e.shift_mm);
-      filtered_turn.add(e.turn_mrad);
-    }
-    for (const auto& e : session.measured) squares += (e.shift_mm - mean).squaredNorm() / n;
-    for (std::size_t l = 0; l < kTrackingLags.size(); ++l) {
-      const auto lag = std::size_t(kTrackingLags[l]);
-      if (session.measured.size() <= lag) continue;
-      double sum = 0;
-      for (std::size_t i = lag; i < session.measured.size(); ++i)
-        sum += (session.measured[i].shift_mm - mean).dot(session.measured[i - lag].shift_mm - mean);
-      products[l] += sum / double(session.measured.size() - lag);
-    }
-    figures.tags_missed += session.tags_missed;
-    pictures += session.pictures;
-    poses += double(session.measured.size());
+void benchTrackingModel(const TrackingModelOptions& options) {
+  const station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/virtual_bench.json")
+                              : std::filesystem::path(options.station));
+  const TrackingFigures figures = twin::trackingFiguresOf(station);
+  std::vector<TrackedSession> pictures, model;
+  for (int i = 0; i < options.sessions; ++i) {
+    const std::uint64_t seed = options.seed + std::uint64_t(i);
+    pictures.push_back(
+        trackedSession(station, seed, options.pictures, TrackedBy::pictures, figures));
+    model.push_back(trackedSession(station, seed, options.pictures, TrackedBy::model, figures));
+    if (options.done) options.done((i + 1.0) / options.sessions);
   }
-  figures.shift_mm = shift.value();
-  figures.turn_mrad = turn.value();
-  figures.filtered_shift_mm = filtered_shift.value();
-  figures.filtered_turn_mrad = filtered_turn.value();
-  for (std::size_t l = 0; l < kTrackingLags.size(); ++l)
-    figures.autocorrelation[l] = squares > 0 ? products[l] / squares : 0;
-  figures.tags_missed /= std::max(pictures, 1.0);
-  figures.poses_missed = 1 - poses / std::max(pictures, 1.0);
-  return figures;
+  printComparison(figuresOf(pictures), figuresOf(model),
+                  {{"sessions", options.sessions},
+                   {"pictures_each", options.pictures},
+                   {"seed", options.seed},
+                   {"data", "simulated"}});
 }
 
 }  // namespace palpa::bench

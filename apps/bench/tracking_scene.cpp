@@ -9,7 +9,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/base/random.h"
+#include "apps/twin/bench_truth.h"
 #include "ar/boards/board.h"
+#include "ar/tracking/board_tracker.h"
 #include "calibration/rotation.h"
 
 namespace palpa::bench {
@@ -163,6 +165,109 @@ cv::Mat falsePicture(int i, cv::Size size, std::uint64_t seed) {
     default:
       return sheet(size, random, [&](int) { return randomCells(random); });
   }
+}
+
+namespace {
+
+constexpr double kPicturesPerSecond = 15;
+
+std::vector<ar::BoardPoint> exactPoints(const ar::TagGridSpec& spec, const Pose& X,
+                                        const calibration::CameraModel& truth) {
+  std::vector<ar::BoardPoint> points;
+  for (int i = 0; i < spec.columns * spec.rows; ++i)
+    for (const Vec3& p_W : ar::tagCorners(spec, spec.first_id + i))
+      points.push_back({p_W, truth.project(X * p_W)});
+  return points;
+}
+
+}  // namespace
+
+TrackedSession trackedSession(const station::Station& station, std::uint64_t seed, int pictures,
+                              TrackedBy by, const twin::TrackingFigures& figures) {
+  const calibration::CameraModel truth = twin::trueCamera(station, seed);
+  const auto board = ar::makeBoard(station.board, station.decimate);
+  std::optional<twin::VirtualCamera> camera;
+  if (by == TrackedBy::pictures)
+    camera.emplace(truth, station.board, twin::VirtualCameraSettings{}, seed);
+  const twin::TrackingModel model(figures, truth, seed);
+  ar::BoardTracker tracker(*board, station.camera);
+  const Pose boom = twin::cameraOnBoom(station, seed);
+  const double sway = twin::boomSway(station),
+               corners = 4.0 * station.board.columns * station.board.rows;
+  const Vec3 watched_W(0, 0.26, 0.1);
+  TrackedSession session;
+  for (; session.pictures < pictures; ++session.pictures) {
+    const auto number = std::uint64_t(session.pictures);
+    const std::int64_t t_ns = std::llround(1e9 / kPicturesPerSecond * session.pictures);
+    const Pose X = twin::swayed(boom, sway, t_ns);
+    const std::vector<ar::BoardPoint> points =
+        camera ? board->detect(camera->render(X, number)) : model.found(X, number);
+    session.tags_missed += 1 - double(points.size()) / corners;
+    const auto pose = tracker.take(points, t_ns);
+    const Pose exact = ar::refinePose(X, exactPoints(station.board, X, truth), station.camera).X_CW;
+    const auto errorOf = [&](const Pose& X_CW) {
+      return TrackedSession::Error{1e3 * (X_CW * watched_W - exact * watched_W),
+                                   1e3 * ar::difference(X_CW, exact).head<3>()};
+    };
+    if (pose) session.measured.push_back(errorOf(pose->X_CW));
+    const ar::PoseLookup filtered = tracker.track().at(t_ns);
+    if (filtered.how != ar::Lookup::none) session.filtered.push_back(errorOf(filtered.X));
+  }
+  return session;
+}
+
+namespace {
+
+struct RmsOf {
+  double squares = 0, n = 0;
+  void add(const Vec3& v) {
+    squares += v.squaredNorm();
+    ++n;
+  }
+  double value() const { return n > 0 ? std::sqrt(squares / n) : 0; }
+};
+
+}  // namespace
+
+PathFigures figuresOf(const std::vector<TrackedSession>& sessions) {
+  PathFigures figures;
+  RmsOf shift, turn, filtered_shift, filtered_turn;
+  std::array<double, kTrackingLags.size()> products{};
+  double squares = 0, pictures = 0, poses = 0;
+  for (const TrackedSession& session : sessions) {
+    Vec3 mean = Vec3::Zero();
+    const double n = std::max(double(session.measured.size()), 1.0);
+    for (const auto& e : session.measured) {
+      shift.add(e.shift_mm);
+      turn.add(e.turn_mrad);
+      mean += e.shift_mm / n;
+    }
+    for (const auto& e : session.filtered) {
+      filtered_shift.add(e.shift_mm);
+      filtered_turn.add(e.turn_mrad);
+    }
+    for (const auto& e : session.measured) squares += (e.shift_mm - mean).squaredNorm() / n;
+    for (std::size_t l = 0; l < kTrackingLags.size(); ++l) {
+      const auto lag = std::size_t(kTrackingLags[l]);
+      if (session.measured.size() <= lag) continue;
+      double sum = 0;
+      for (std::size_t i = lag; i < session.measured.size(); ++i)
+        sum += (session.measured[i].shift_mm - mean).dot(session.measured[i - lag].shift_mm - mean);
+      products[l] += sum / double(session.measured.size() - lag);
+    }
+    figures.tags_missed += session.tags_missed;
+    pictures += session.pictures;
+    poses += double(session.measured.size());
+  }
+  figures.shift_mm = shift.value();
+  figures.turn_mrad = turn.value();
+  figures.filtered_shift_mm = filtered_shift.value();
+  figures.filtered_turn_mrad = filtered_turn.value();
+  for (std::size_t l = 0; l < kTrackingLags.size(); ++l)
+    figures.autocorrelation[l] = squares > 0 ? products[l] / squares : 0;
+  figures.tags_missed /= std::max(pictures, 1.0);
+  figures.poses_missed = 1 - poses / std::max(pictures, 1.0);
+  return figures;
 }
 
 }  // namespace palpa::bench

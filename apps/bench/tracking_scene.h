@@ -1,12 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "anatomy/base/random.h"
 #include "apps/bench/bench.h"
+#include "apps/twin/tracking_model.h"
 #include "apps/twin/virtual_camera.h"
 #include "ar/boards/board.h"
 
@@ -67,5 +70,31 @@ class HandMotion {
 /// text, sheets of tags of other families, and random cells in black squares, which look most like
 /// tags; in turn.
 cv::Mat falsePicture(int i, cv::Size size, std::uint64_t seed);
+
+enum class TrackedBy { pictures, model };
+
+/// One camera on its boom, for so many pictures: what the tracker makes of them, against what it
+/// would make of corners without any error (the calibration's share in the error is left out, as it
+/// is the same in both).
+struct TrackedSession {
+  struct Error {
+    Vec3 shift_mm, turn_mrad;  ///< of a point at the patient's entry; of the board
+  };
+  std::vector<Error> measured, filtered;  ///< where there is a pose
+  int pictures = 0;
+  double tags_missed = 0;  ///< sum over the pictures of the share of tags that are not found
+};
+TrackedSession trackedSession(const station::Station& station, std::uint64_t seed, int pictures,
+                              TrackedBy by, const twin::TrackingFigures& figures);
+
+inline constexpr std::array<int, 4> kTrackingLags{1, 3, 8, 15};  ///< pictures
+
+struct PathFigures {
+  double shift_mm = 0, turn_mrad = 0, filtered_shift_mm = 0, filtered_turn_mrad = 0;  ///< rms
+  /// of the measured shift about its session's mean
+  std::array<double, kTrackingLags.size()> autocorrelation{};
+  double tags_missed = 0, poses_missed = 0;  ///< shares
+};
+PathFigures figuresOf(const std::vector<TrackedSession>& sessions);
 
 }  // namespace palpa::bench

@@ -34,6 +34,8 @@ const std::map<std::string, scene::Stereo> kStereos{{"none", scene::Stereo::none
                                                     {"anaglyph", scene::Stereo::anaglyph}};
 const std::map<std::string, scene::Inset> kInsets{{"none", scene::Inset::none},
                                                   {"camera", scene::Inset::camera}};
+const std::map<std::string, session::Tracking> kTrackings{{"images", session::Tracking::images},
+                                                          {"model", session::Tracking::model}};
 const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
 const std::map<std::string, bool> kGeometries{{"local", false}, {"exact", true}};
 const std::map<std::string, bool> kKnowledge{{"mean", false}, {"patient", true}};
@@ -94,6 +96,10 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
   command.add_flag("--record-video", o.record_video,
                    "Keep the camera's pictures and their poses: camera.mjpeg and a table");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
+  choice(command, "--tracking", o.tracking, kTrackings,
+         "The virtual bench's board is tracked in its camera's pictures (images, the default), or "
+         "by a model of the errors that they cause, which is faster (model; with --fast "
+         "--no-views)");
   choice(command, "--force-colours", o.force_colours, kForceColours,
          "Colours of the force arrows: grays (paper, the default), or ones that colour-blind "
          "people can tell apart (safe)");

@@ -1,6 +1,8 @@
 #include "apps/bench/bench.h"
+#include "apps/bench/tracking_fit.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/values.h"
+#include "apps/session/terminal.h"
 
 namespace palpa::cli {
 namespace {
@@ -99,12 +101,56 @@ void addStop(CLI::App& bench) {
   stop->callback([options] { bench::benchStop(*options); });
 }
 
+/// The tracking model's part of `bench tracking`.
+struct TrackingModelArguments {
+  bench::TrackingFitOptions fit;
+  bool compare = false;
+  bench::TrackingModelOptions model;
+};
+
+std::shared_ptr<TrackingModelArguments> addTrackingModel(CLI::App& tracking) {
+  const auto o = std::make_shared<TrackingModelArguments>();
+  CLI::Option* fit =
+      tracking
+          .add_option("--fit", o->fit.file,
+                      "Measure the errors of poses from pictures, for sessions with --tracking "
+                      "model, and write the figures to this file")
+          ->type_name("FILE");
+  CLI::Option* compare = tracking.add_flag(
+      "--model", o->compare, "Compare that model with pictures of other seeds");
+  fit->excludes(compare);
+  tracking
+      .add_option("--station", o->fit.station,
+                  "With --fit or --model: station file (default: the virtual bench)")
+      ->type_name("FILE")
+      ->check(somethingThere("stations"));
+  tracking
+      .add_option("--sessions", o->model.sessions,
+                  "With --model: sessions of 3 s, by each (default 800)")
+      ->needs(compare)
+      ->check(inRange(1, 100'000));
+  return o;
+}
+
+void runTrackingModel(TrackingModelArguments& o) {
+  constexpr int kParts = 1000;
+  session::WorkProgress progress(o.compare ? "comparing" : "measuring", kParts);
+  const auto done = [&](double share) { progress.done(static_cast<int>(share * kParts)); };
+  o.fit.done = o.model.done = done;
+  o.model.station = o.fit.station;
+  if (o.compare)
+    bench::benchTrackingModel(o.model);
+  else
+    bench::fitTrackingModel(o.fit);
+}
+
 void addTracking(CLI::App& bench) {
   CLI::App* tracking = bench.add_subcommand(
       "tracking", "How accurate, steady and fast the board's tracking is (simulated pictures)");
   tracking->footer(
-      "Example:\n  palpa bench tracking > tracking.jsonl\n  palpa bench tracking --distance 1 "
-      "--speed 0.1 --quick");
+      "Examples:\n  palpa bench tracking > tracking.jsonl\n  palpa bench tracking --distance 1 "
+      "--speed 0.1 --quick\n  palpa bench tracking --fit tracking.json\n  palpa bench tracking "
+      "--model --sessions 50");
   const auto options = std::make_shared<bench::TrackingBenchOptions>();
   tracking->add_option("--distance", options->distance, "From camera to board, m")
       ->check(inRange(0.2, 3.0, "m"));
@@ -123,7 +169,12 @@ void addTracking(CLI::App& bench) {
   tracking->add_option("--seed", options->seed, "Seed of the simulated noise")
       ->check(atLeastZero());
   tracking->add_flag("--quick", options->quick, "A tenth of the pictures");
-  tracking->callback([options] { bench::benchTracking(*options); });
+  const auto model = addTrackingModel(*tracking);
+  tracking->callback([options, model] {
+    if (model->fit.file.empty() && !model->compare) return bench::benchTracking(*options);
+    model->fit.quick = options->quick;
+    runTrackingModel(*model);
+  });
 }
 
 }  // namespace

@@ -25,6 +25,9 @@ class CameraActivity final : public Activity {
     double sigma = 0.3e-3, sigma_rad = 2e-3;  ///< m and rad, of each component
     double stale = 0.1;                       ///< s
   };
+  /// The points of the table's board that would be found in a picture exposed now.
+  using Finder =
+      std::function<std::vector<ar::BoardPoint>(std::int64_t now_ns, std::uint64_t number)>;
   struct Settings {
     std::int64_t period_ns = 66'666'667;
     std::int64_t latency_ns = 50'000'000;  ///< exposure to published pose; at most the period
@@ -32,9 +35,8 @@ class CameraActivity final : public Activity {
     bool photographs = false;  ///< each picture stands for itself: no motion between them
     /// X_CW comes by `Bus::tracker_to_camera`; the table's board is not looked for
     std::optional<Tracking> tracked{};
-    /// In place of pictures (virtual time): the points of the table's board that would be found in
-    /// one exposed now. The exposer is not asked.
-    std::function<std::vector<ar::BoardPoint>(std::int64_t now_ns, std::uint64_t number)> finder{};
+    /// In place of pictures, in virtual time: the exposer is not asked
+    Finder finder{};
     /// looked for besides the table's, each with a motion of its own
     std::vector<std::shared_ptr<const ar::Board>> others{};
   };

@@ -66,6 +66,9 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
       {"On the screen", shownIn(options).name, presentation::describe(shownIn(options))},
       {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
       {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
+  if (options.tracking == Tracking::model)
+    facts.push_back({"Board", "tracked by a model",
+                     "of the errors that pictures would have caused; no picture was drawn"});
   if (!options.study.id.empty())
     facts.push_back({"Study", options.study.id,
                      "block " + options.study.block});  // not the condition: it may be blind
@@ -211,6 +214,7 @@ record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head
                   {"trainee", options.trainee},
                   {"force_feedback", options.force_feedback},
                   {"virtual_time", options.fast},
+                  {"tracking", options.tracking == Tracking::model ? "model" : "images"},
                   {"assessed", options.assess},
                   {"report", jsonOf(head)}});
   info.session_json = sessionText(std::move(of_task), options);

@@ -169,7 +169,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   const std::unique_ptr<runtime::Activity> haptic = loop(geometry);
   runtime::CameraActivity camera(
       bus_, pictures_.exposer(devices_.bench(), executive_->clock()), pictures_.board(),
-      pictures_.camera(), pictures_.settings(mode_),
+      pictures_.camera(), pictures_.settings(mode_, devices_.bench()),
       [this, look = pictures_.observer(devices_.bench())](const runtime::CameraView& view) {
         look(view);
         if (video_) video_->add(view);

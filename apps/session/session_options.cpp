@@ -61,6 +61,21 @@ void settleAssessment(SessionOptions& o) {
         "neither anatomy nor tissue nor force, no demonstration");
 }
 
+/// The model takes the place of pictures that nobody sees.
+void checkTracking(const SessionOptions& o) {
+  if (o.tracking == Tracking::images) return;
+  constexpr const char* kOption = "--tracking model";
+  if (!o.fast || !o.no_views)
+    throw UsageError("draws no pictures, so it goes with --fast and --no-views only", kOption,
+                     "Add both, or leave it out");
+  if (!o.camera.empty())
+    throw UsageError("takes the place of pictures, so it cannot go with --camera", kOption,
+                     "Leave one of them out");
+  if (o.record_video)
+    throw UsageError("draws no pictures that could be kept", "--record-video with --tracking model",
+                     "Leave one of them out");
+}
+
 }  // namespace
 
 const char* nameOf(OperatorKind who) {
@@ -153,6 +168,7 @@ void settle(SessionOptions& o) {
                      "Leave one of them out");
   if (o.assess) settleAssessment(o);
   checkShown(o);
+  checkTracking(o);
   if (o.exact_geometry && !o.fast)
     throw UsageError("needs virtual time", "--geometry exact",
                      "Add --fast: the full mesh takes longer than a tick");

@@ -34,6 +34,10 @@ inline bool isSimulated(OperatorKind who) {
          who == OperatorKind::custom || who == OperatorKind::learner;
 }
 
+/// By what the board is tracked: pictures, or on the virtual bench a model of the errors that
+/// pictures would have caused.
+enum class Tracking { images, model };
+
 /// Of which study a session is part.
 struct StudyStep {
   std::string id;         ///< the protocol's; empty: none
@@ -73,6 +77,7 @@ struct SessionOptions {
   std::string records;  ///< where finished trials go; empty: nobody is recorded
   bool fast = false;
   bool no_views = false;
+  Tracking tracking = Tracking::images;
   bool record_video = false;                               ///< keep the camera's pictures
   std::optional<presentation::Presentation> presentation;  ///< empty: by role and force feedback
   bool hide_forces = false;      ///< a study's: those of other conditions do not feel them

@@ -42,6 +42,7 @@ SessionPictures::SessionPictures(const SessionOptions& options, const station::S
     source_ = Source::webcam;
   if (source_ == Source::webcam && options.fast)
     throw UsageError("needs real time", "the station's webcam", "Leave out --fast");
+  if (options.tracking == Tracking::model) readModel();
   pictures_ = opened();
   if (!file_.empty()) {
     if (const auto first = opened()->grab()) checkSize(*first, camera_);
@@ -57,6 +58,21 @@ SessionPictures::SessionPictures(const SessionOptions& options, const station::S
 
 SessionPictures::~SessionPictures() = default;
 
+/// The shipped figures, or those that the station names. A station on which more than the table's
+/// board is watched, or on which pictures go wrong, needs pictures.
+void SessionPictures::readModel() {
+  const auto refuse = [&](const char* field, const std::string& what) {
+    throw UsageError(what, station_.file.name() + ", " + field, "Leave out --tracking model");
+  };
+  if (!station_.simulated || source_ != Source::bench)
+    refuse("camera", "is a real one, and the tracking model stands for the simulated one's");
+  if (station_.tracker) refuse("tracker", "tracks the camera, so that no model can");
+  if (!station_.boards.empty()) refuse("boards", "are not known to the tracking model");
+  if (station_.file.has("twin/camera_faults"))
+    refuse("twin/camera_faults", "are faults of pictures, and the tracking model has none");
+  model_ = twin::trackingFiguresOf(station_);
+}
+
 std::unique_ptr<ar::Camera> SessionPictures::opened() const {
   switch (source_) {
     case Source::webcam:
@@ -71,7 +87,8 @@ std::unique_ptr<ar::Camera> SessionPictures::opened() const {
   return nullptr;
 }
 
-runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mode) const {
+runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mode,
+                                                            const twin::VirtualBench* bench) const {
   constexpr double kDeviceWaits_Hz = 1000;  // a webcam's own pace: asking it waits
   runtime::CameraActivity::Settings settings;
   settings.period_ns =
@@ -80,6 +97,7 @@ runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mo
       static_cast<std::int64_t>(1e9 * std::min(station_.camera_latency_s, 1 / rate_Hz_));
   settings.mode = mode;
   settings.photographs = photographs();
+  if (model_) settings.finder = bench->finder(*model_);
   if (file_.empty() && station_.tracker)
     settings.tracked = {station_.tracker->sigma, station_.tracker->sigma_rad,
                         station_.tracker->stale_s};
@@ -120,6 +138,7 @@ std::optional<ar::Frame> SessionPictures::take(std::int64_t now_ns, std::uint64_
 
 runtime::CameraActivity::Exposer SessionPictures::exposer(twin::VirtualBench* bench,
                                                           const runtime::Clock& clock) {
+  if (model_) return {};
   if (fromBench()) return bench->exposer();
   return [this, &clock](std::int64_t now_ns, std::uint64_t number) {
     return [this, &clock, now_ns, number]() { return take(now_ns, number, clock); };

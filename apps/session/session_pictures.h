@@ -21,9 +21,10 @@ struct RegistrationRow {
 };
 
 /// Where a session's pictures come from, and what board is looked for in them: the bench's camera,
-/// the station's webcam, a film, or photographs one after the other, over and over. Throws
-/// UsageError when pictures and intrinsics do not fit, or a webcam is to be watched in virtual
-/// time.
+/// the station's webcam, a film, or photographs one after the other, over and over. With
+/// `--tracking model` nothing: a model of what would be found in the bench's pictures. Throws
+/// UsageError when pictures and intrinsics do not fit, a webcam is to be watched in virtual time, or
+/// the station has what the model does not know.
 class SessionPictures {
  public:
   SessionPictures(const SessionOptions& options, const station::Station& station);
@@ -33,7 +34,9 @@ class SessionPictures {
   bool photographs() const { return source_ == Source::photographs; }
   const calibration::CameraModel& camera() const { return camera_; }
   const ar::Board& board() const { return *board_; }
-  runtime::CameraActivity::Settings settings(runtime::TimeMode mode) const;
+  /// `bench`: asked only where its camera is watched.
+  runtime::CameraActivity::Settings settings(runtime::TimeMode mode,
+                                             const twin::VirtualBench* bench) const;
   /// `bench` is asked only where its camera is watched; `clock`: the session's.
   runtime::CameraActivity::Exposer exposer(twin::VirtualBench* bench, const runtime::Clock& clock);
   runtime::CameraActivity::Observer observer(twin::VirtualBench* bench);
@@ -46,6 +49,7 @@ class SessionPictures {
   std::optional<ar::Frame> take(std::int64_t now_ns, std::uint64_t number,
                                 const runtime::Clock& clock);
   std::unique_ptr<ar::Camera> opened() const;
+  void readModel();
   void note(const runtime::CameraView& view);
 
   const station::Station& station_;
@@ -53,6 +57,7 @@ class SessionPictures {
   Source source_ = Source::bench;
   calibration::CameraModel camera_;
   double rate_Hz_;
+  std::optional<twin::TrackingFigures> model_;  ///< in place of the bench's pictures
   std::unique_ptr<ar::Camera> pictures_;  ///< null: the bench's, or a webcam that is not open
   std::size_t photographs_ = 0;
   std::unique_ptr<ar::Board> board_;

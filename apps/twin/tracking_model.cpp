@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/units.h"
+#include "apps/station/assets.h"
 #include "apps/twin/virtual_camera_picture.h"
 
 namespace palpa::twin {
@@ -62,7 +64,7 @@ void requireRising(const JsonFile& file, const std::string& field, std::size_t n
 
 TrackingFigures readTrackingFigures(const std::filesystem::path& path) {
   const JsonFile file(path);
-  file.needVersion(kVersion);
+  needKind(file, "tracking_model", kVersion);
   TrackingFigures f;
   f.width = file.integer("camera/width_px", 16, 20000);
   f.height = file.integer("camera/height_px", 16, 20000);
@@ -127,6 +129,9 @@ json jsonOf(const TrackingFigures& f) {
       {"distances", distances}};
 }
 
+namespace {
+
+/// Throws UsageError unless the station's camera, board and distance are those of the figures.
 void requireFigures(const TrackingFigures& f, const station::Station& station) {
   constexpr double kSameFocal = 0.05, kSame = 1e-6;  // shares
   const auto same = [](double a, double b, double share) {
@@ -149,7 +154,20 @@ void requireFigures(const TrackingFigures& f, const station::Station& station) {
     throw UsageError(
         "is another than the one whose pictures the tracking model was measured on",
         station.file.name() + ", " + other,
-        "Leave out --tracking model, or measure it: palpa bench tracking --fit --station FILE");
+        "Leave out --tracking model, or measure them: palpa bench tracking --fit FILE --station " +
+            station.file.name());
+}
+
+}  // namespace
+
+TrackingFigures trackingFiguresOf(const station::Station& station) {
+  constexpr const char* kField = "twin/tracking_figures";
+  TrackingFigures figures = readTrackingFigures(
+      station.file.has(kField)
+          ? std::filesystem::path(station.file.name()).parent_path() / station.file.text(kField)
+          : station::assetFile("tracking/virtual_camera.json"));
+  requireFigures(figures, station);
+  return figures;
 }
 
 double narrowest(const std::array<Eigen::Vector2d, 4>& q) {

@@ -52,11 +52,11 @@ struct TrackingFigures {
 
 /// Throws UsageError with file and field.
 TrackingFigures readTrackingFigures(const std::filesystem::path& file);
+/// Those that the station names ("twin/tracking_figures"), or the shipped ones. Throws UsageError,
+/// also where they are not for its camera, board and distance.
+TrackingFigures trackingFiguresOf(const station::Station& station);
 /// The same as data, without remarks.
 nlohmann::json jsonOf(const TrackingFigures& figures);
-
-/// Throws UsageError unless the station's camera, board and distance are those of the figures.
-void requireFigures(const TrackingFigures& figures, const station::Station& station);
 
 /// Half the width of a tag in a picture is seen along its diagonal; this is the least across it,
 /// px.

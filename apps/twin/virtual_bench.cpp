@@ -115,18 +115,12 @@ struct VirtualBench::Impl final : public runtime::Activity {
         board_moves(readBoardMoves(setup.station)),
         sway(boomSway(setup.station)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
+        seed(setup.seed),
         real_thing(std::move(setup.real_thing)),
         on_word(std::move(setup.on_word)) {
     const WorldTruth world = drawWorld(setup.station, setup.seed);
     X_WD_true = world.X_WD;
     X_ET_true = world.X_ET;
-    VirtualCameraSettings settings;
-    settings.latency_ns = static_cast<std::int64_t>(setup.station.camera_latency_s * 1e9);
-    VirtualScene scene;
-    for (const station::OtherBoard& board : setup.station.boards)
-      scene.plates.push_back(board.grid);
-    camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed,
-                   scene);
     errors_mm.reserve(4096);
     tools.emplace_back(toolSetup(std::move(setup.hand), setup.X_DE_start, X_WD_true, device_in,
                                  setup.sensor, setup.seed));
@@ -137,6 +131,14 @@ struct VirtualBench::Impl final : public runtime::Activity {
                                    X_WD2_true, *setup.second->device, setup.second->sensor,
                                    setup.seed + 1));
     }
+  }
+
+  void makeCamera() {
+    VirtualCameraSettings settings;
+    settings.latency_ns = static_cast<std::int64_t>(station.camera_latency_s * 1e9);
+    VirtualScene scene;
+    for (const station::OtherBoard& board : station.boards) scene.plates.push_back(board.grid);
+    camera.emplace(trueCamera(station, seed), station.board, settings, seed, scene);
   }
 
   HeldToolSetup toolSetup(std::unique_ptr<Hand> hand, const Pose& X_DE_start, const Pose& X_WD,
@@ -206,6 +208,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
   std::vector<BoardMove> board_moves;
   double sway;
   Pose X_CW_boom;
+  std::uint64_t seed;
   TouchedObject real_thing;
   std::function<void(const Hand::Word&)> on_word;
   std::optional<VirtualCamera> camera;
@@ -222,7 +225,8 @@ VirtualBench::~VirtualBench() = default;
 
 runtime::Activity& VirtualBench::activity() { return *impl_; }
 
-runtime::CameraActivity::Exposer VirtualBench::exposer() const {
+runtime::CameraActivity::Exposer VirtualBench::exposer() {
+  if (!impl_->camera) impl_->makeCamera();
   return [impl = impl_.get()](std::int64_t now_ns, std::uint64_t number) {
     const CameraFault* fault = faultAt(impl->camera_faults, 1e-9 * static_cast<double>(now_ns));
     const bool frozen = fault && fault->kind == CameraFaultKind::frozen;
@@ -237,6 +241,14 @@ runtime::CameraActivity::Exposer VirtualBench::exposer() const {
                       "virtual camera"};
       return fault ? spoilt(std::move(frame), *fault) : std::optional(std::move(frame));
     };
+  };
+}
+
+runtime::CameraActivity::Finder VirtualBench::finder(const TrackingFigures& figures) const {
+  const auto model = std::make_shared<const TrackingModel>(
+      figures, trueCamera(impl_->station, impl_->seed), impl_->seed);
+  return [impl = impl_.get(), model](std::int64_t now_ns, std::uint64_t number) {
+    return model->found(impl->X_CW(now_ns), number);
   };
 }
 

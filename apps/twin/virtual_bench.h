@@ -12,6 +12,7 @@
 #include "apps/twin/bench_faults.h"
 #include "apps/twin/device_twin.h"
 #include "apps/twin/hand.h"
+#include "apps/twin/tracking_model.h"
 #include "apps/twin/virtual_camera.h"
 
 namespace palpa::twin {
@@ -118,8 +119,10 @@ class VirtualBench {
   ~VirtualBench();
 
   runtime::Activity& activity();                     ///< hand and device mechanics, 1 kHz
-  runtime::CameraActivity::Exposer exposer() const;  ///< pictures
-  void observe(const runtime::CameraView& view);     ///< measures the registration
+  runtime::CameraActivity::Exposer exposer();     ///< pictures: only now the camera is made
+  /// In place of pictures
+  runtime::CameraActivity::Finder finder(const TrackingFigures& figures) const;
+  void observe(const runtime::CameraView& view);  ///< measures the registration
   BenchAccuracy accuracy() const;
 
  private:

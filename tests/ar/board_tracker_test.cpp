@@ -65,6 +65,26 @@ TEST(BoardTracker, HiddenLostAndFoundAgainInPicturesOfAnySize) {
   EXPECT_EQ(tracker.state(), TrackState::tracked);
 }
 
+/// Points that were found elsewhere mean the same as the picture that they were found in.
+TEST(BoardTracker, TakesPointsAsItTakesPictures) {
+  const auto board = makeBoard(TagGridSpec{});
+  const cv::Mat nothing(480, 640, CV_8U, cv::Scalar(128));
+  BoardTracker seeing(*board, pinhole()), taking(*board, pinhole());
+  for (int i = 0; i < 20; ++i) {
+    const bool hidden = i > 5 && i < 18;  // for a moment, then lost
+    const cv::Mat picture = hidden ? nothing : pictureOf(viewOf(2.0, rad(20), 0));
+    const auto seen = seeing.see(picture, i * kFrame),
+               taken = taking.take(board->detect(picture), i * kFrame);
+    ASSERT_TRUE(seeing.region().empty());  // a small board: the detector sees the same picture
+    ASSERT_EQ(seen.has_value(), taken.has_value()) << i;
+    if (seen) {
+      EXPECT_EQ(seen->X_CW.matrix(), taken->X_CW.matrix());
+    }
+    EXPECT_EQ(seeing.state(), taking.state());
+    EXPECT_EQ(seeing.track().at(i * kFrame).X.matrix(), taking.track().at(i * kFrame).X.matrix());
+  }
+}
+
 TEST(BoardTracker, PhotographsStandForThemselves) {
   const auto board = makeBoard(TagGridSpec{});
   BoardTracker tracker(*board, pinhole(), {{}, false});

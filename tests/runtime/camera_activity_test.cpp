@@ -217,5 +217,59 @@ TEST(CameraWords, SilenceIsTold) {
   EXPECT_NE(cameraTrouble(&view, 2 * kSecond), "");
 }
 
+/// A model stands for camera and detector: its points are those of the exposure, and what follows
+/// from them is visible as late as a picture's.
+TEST(CameraActivity, PointsOfAModelTakeThePlaceOfPictures) {
+  const auto executive = makeVirtualExecutive();
+  Bus bus(TimeMode::virtual_time);
+  const auto board = ar::makeBoard(ar::TagGridSpec{});
+  const calibration::CameraModel camera{640, 480, 600, 600, 320, 240, {}, 0};
+  Pose X = Pose::Identity();
+  X.linear() = Eigen::AngleAxisd(2.6, Vec3::UnitX()).toRotationMatrix();
+  X.translation() = Vec3(0, 0, 0.5);
+  CameraActivity::Settings settings{kPeriod, kLatency, TimeMode::virtual_time};
+  std::vector<std::int64_t> asked;
+  settings.finder = [&](std::int64_t now, std::uint64_t number) {
+    EXPECT_EQ(number, asked.size());
+    asked.push_back(now);
+    std::vector<ar::BoardPoint> points;
+    if (number != 2)
+      for (int id = 0; id < 24; ++id)
+        for (const Vec3& p_W : ar::tagCorners({}, id))
+          points.push_back({p_W, camera.project(X * p_W)});
+    return points;
+  };
+  CameraActivity activity(bus, {}, *board, camera, settings);
+  std::vector<CameraView> seen;
+  Doing reader("reader", [&](std::int64_t now) {
+    const CameraView* view = bus.camera_to_scene.read(now);
+    if (view && (seen.empty() || seen.back().number != view->number)) {
+      EXPECT_EQ(now, view->t_exposure_ns + kLatency);
+      seen.push_back(*view);
+    }
+    return seen.size() == 4 ? kNever : now + kMillisecond;
+  });
+  executive->add(activity, {3, false, false});
+  executive->add(reader, {4, false, false});
+  bool stopped = false;
+  Doing end("end", [&](std::int64_t now) {
+    if (now > 6 * kPeriod) executive->stop(), stopped = true;
+    return stopped ? kNever : now + kPeriod;
+  });
+  executive->add(end, {5, false, false});
+  executive->run();
+  ASSERT_EQ(seen.size(), 4u);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_EQ(asked[i], std::int64_t(i) * kPeriod);
+    EXPECT_FALSE(seen[i].picture);
+    EXPECT_EQ(seen[i].fault, ar::PictureFault::none);
+    EXPECT_EQ(seen[i].pose.has_value(), i != 2);
+    EXPECT_EQ(seen[i].tracking,
+              i == 2 ? ar::TrackState::coasting : ar::TrackState::tracked);
+    ASSERT_TRUE(seen[i].X_CW);
+    EXPECT_LT((seen[i].X_CW->translation() - X.translation()).norm(), 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace palpa::runtime

@@ -25,6 +25,7 @@
 #include "apps/twin/phantom/phantom_file.h"
 #include "apps/twin/searching_hand.h"
 #include "apps/twin/squeezing_hands.h"
+#include "apps/twin/tracking_model.h"
 #include "ar/boards/board.h"
 #include "calibration/camera_model.h"
 #include "calibration/expert_path.h"
@@ -71,7 +72,8 @@ json crowdedBench() {
           {"twin",
            {{"board_moves", {{{"board", "phantom"}, {"from_s", 1}, {"by_mm", {1, 0, 0}}}}},
             {"camera_faults", {{{"kind", "black"}, {"from_s", 1}, {"to_s", 2}}}},
-            {"device", {{"position_error_mm", 0.1}}}}}};
+            {"device", {{"position_error_mm", 0.1}}},
+            {"tracking_figures", "tracking.json"}}}};
 }
 
 json faultySensor() {
@@ -129,7 +131,7 @@ Kind stationKind() {
                    " without boards", "/boards.*", "/real_things/0/on.*",
                    "/twin/board_moves/0/board.*", "/twin/(camera|sensor)_faults/./(from|to)_s.*"},
       .forgiving = {},
-      .elsewhere = {"/twin/(samples|landmark_spread_mm|X_EM|camera_sway_mm).*",
+      .elsewhere = {"/twin/(samples|landmark_spread_mm|X_EM|camera_sway_mm|tracking_figures).*",
                     "/twin without camera_sway_mm"}};
 }
 
@@ -372,6 +374,13 @@ std::vector<Kind> operatorKinds() {
            .samples = {{"operators/search_expert.json", json::object()}},
            .read = [](const fs::path& file) { twin::readSearchingSkill(file); },
            .stricter = {},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "tracking_model",
+           .samples = {{"tracking/virtual_camera.json", {{"about", "a test"}}}},
+           .read = [](const fs::path& file) { twin::readTrackingFigures(file); },
+           // Places and distances rise; at each place six numbers.
+           .stricter = {"/aside.*", "/distances/./(distance_mm|bias_px).*"},
            .forgiving = {},
            .elsewhere = {}},
           {.name = "operator_squeeze",

@@ -45,6 +45,7 @@ constexpr Place kPlaces[] = {
     {"tasks/search.json", "task_search"},
     {"tasks/squeeze.json", "task_squeeze"},
     {"tasks/(?!.*_expert_path)[^/]+", "task"},
+    {"tracking/[^/]+", "tracking_model"},
 };
 
 json resolved(const json& node, const json& root) {

@@ -83,6 +83,28 @@ TEST(Raters, WeightedKappaByHand) {
 
 // Figures of power.t.test of R 4: n = 20, delta = 1: 0.8689528; power .90: 22.02110 a group; Cohen
 // 1988: d = .5, power .80: 64.
+/// So many pairs without a true difference are found equivalent as often as planned.
+TEST(Power, OfEquivalenceIsWhatDrawsShow) {
+  constexpr double kMargin = 0.5;
+  const int n = pairsForEquivalence(kMargin, 0.8);
+  EXPECT_GE(powerOfEquivalence(kMargin, n), 0.8);
+  EXPECT_LT(powerOfEquivalence(kMargin, n - 1), 0.8);
+  RandomStream random(5, "test.equivalence");
+  constexpr int kStudies = 2000;
+  int shown = 0;
+  for (int i = 0; i < kStudies; ++i) {
+    std::vector<double> a, b(static_cast<std::size_t>(n), 0.0);
+    for (int k = 0; k < n; ++k) a.push_back(random.normal());
+    shown += equivalenceOfPairs(a, b, kMargin).p < 0.05;
+  }
+  const double power = powerOfEquivalence(kMargin, n);
+  EXPECT_NEAR(static_cast<double>(shown) / kStudies, power,
+              4 * std::sqrt(power * (1 - power) / kStudies));
+  EXPECT_THROW(pairsForEquivalence(-0.5, 0.8), Error);
+  EXPECT_THROW(pairsForEquivalence(0, 0.8), Error);
+  EXPECT_THROW(powerOfEquivalence(0.5, 1), Error);
+}
+
 TEST(Power, PublishedFigures) {
   EXPECT_NEAR(powerOfTwoGroups(1, 20, 20), 0.8689528, 5e-7);
   EXPECT_EQ(subjectsPerGroup(1, 0.90), 23);

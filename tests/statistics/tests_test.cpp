@@ -30,6 +30,27 @@ TEST(TTests, StudentsSleep) {
   EXPECT_NEAR(pairs.difference, -1.58, 1e-12);
 }
 
+/// Schuirmann 1987: equivalent at 5 % exactly where the 90 % interval lies within the margin.
+TEST(TTests, EquivalenceIsTwoOneSidedTests) {
+  const TTest pairs = paired(kDrug1, kDrug2);
+  const Equivalence wide = equivalenceOfPairs(kDrug1, kDrug2, 3);
+  EXPECT_NEAR(wide.difference, -1.58, 1e-12);
+  EXPECT_NEAR(wide.sd, 1.2299955, 5e-7);
+  // t of 5 % and 9 degrees: 1.8331
+  EXPECT_NEAR(wide.low, -1.58 - 1.8331 * 0.388959, 5e-5);
+  EXPECT_NEAR(wide.high, -1.58 + 1.8331 * 0.388959, 5e-5);
+  EXPECT_LT(wide.p, 0.05);
+  EXPECT_GT(equivalenceOfPairs(kDrug1, kDrug2, 2).p, 0.05);
+  EXPECT_NEAR(equivalenceOfPairs(kDrug1, kDrug2, -wide.low).p, 0.05, 1e-9);
+  // A margin of 0 would ask whether the difference is positive and negative at once.
+  EXPECT_NEAR(equivalenceOfPairs(kDrug1, kDrug2, 1e-12).p, pairs.p_greater, 1e-9);
+  EXPECT_EQ(equivalenceOfPairs({1, 2, 3}, {1, 2, 3}, 0.1).p, 0);
+  EXPECT_EQ(equivalenceOfPairs({1, 2, 3}, {3, 4, 5}, 0.1).p, 1);
+  EXPECT_THROW(equivalenceOfPairs({1, 2}, {1, 2}, 0), Error);
+  EXPECT_THROW(equivalenceOfPairs({1}, {1}, 1), Error);
+  EXPECT_THROW(equivalenceOfPairs({1, 2}, {1, 2, 3}, 1), Error);
+}
+
 TEST(TTests, TailsAndDirection) {
   const TTest test = welch({1, 2, 3, 4}, {5, 6, 7, 9});
   EXPECT_LT(test.t, 0);

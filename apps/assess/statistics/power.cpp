@@ -3,6 +3,7 @@
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "anatomy/base/error.h"
@@ -50,9 +51,18 @@ double powerOfPairs(double effect, double n, double level, Tails tails) {
   return powerOf(effect * std::sqrt(n), n - 1, level, tails);
 }
 
-int subjectsPerGroup(double effect, double power, double level, Tails tails) {
-  requirePower(effect, power, level);
-  const auto enough = [&](int n) { return powerOfTwoGroups(effect, n, n, level, tails) >= power; };
+double powerOfEquivalence(double margin, double n, double level) {
+  requireLevel(level);
+  if (!(n >= 2)) throw Error("two pairs are needed", kPlanning, "Plan more");
+  const double one = powerOf(margin * std::sqrt(n), n - 1, level, Tails::one);
+  return std::max(2 * one - 1, 0.0);
+}
+
+namespace {
+
+/// Fewest for which `enough(n)`.
+template <class Enough>
+int fewest(const Enough& enough) {
   int few = 1, many = 2;  // not enough, and a guess
   while (!enough(many)) {
     few = many;
@@ -66,6 +76,21 @@ int subjectsPerGroup(double effect, double power, double level, Tails tails) {
     (enough(middle) ? many : few) = middle;
   }
   return many;
+}
+
+}  // namespace
+
+int pairsForEquivalence(double margin, double power, double level) {
+  requirePower(margin, power, level);
+  if (!(margin > 0))
+    throw Error("the margin must be positive", kPlanning, "Say how large a difference matters");
+  return fewest([&](int n) { return powerOfEquivalence(margin, n, level) >= power; });
+}
+
+int subjectsPerGroup(double effect, double power, double level, Tails tails) {
+  requirePower(effect, power, level);
+  return fewest(
+      [&](int n) { return powerOfTwoGroups(effect, n, n, level, tails) >= power; });
 }
 
 int subjectsPerGroupForRates(double rate_a, double rate_b, double power, double level,

@@ -15,6 +15,14 @@ double powerOfTwoGroups(double effect, double n_a, double n_b, double level = 0.
 /// The same for pairs whose differences have this effect.
 double powerOfPairs(double effect, double n, double level = 0.05, Tails tails = Tails::two);
 
+/// Chance that two one-sided tests show pairs without any true difference to be equivalent; the
+/// margin in standard deviations of the differences. 1 - 2 times the chance that one of the tests
+/// fails, which is a lower bound: Phillips, J. Pharmacokinet. Biopharm. 18, 1990. Throws Error for
+/// fewer than two pairs.
+double powerOfEquivalence(double margin, double n, double level = 0.05);
+/// Fewest pairs for this power. Throws Error for a margin that is not positive, and as below.
+int pairsForEquivalence(double margin, double power, double level = 0.05);
+
 /// Fewest subjects in each of two groups for this power. Throws Error for an effect of 0, a power
 /// not between the level and 1, and where more than a million would be needed.
 int subjectsPerGroup(double effect, double power, double level = 0.05, Tails tails = Tails::two);

@@ -68,13 +68,40 @@ TTest pooledFromMoments(const Moments& a, const Moments& b) {
   return testOf(a.mean, b.mean, sd, sd * std::sqrt(1 / a.n + 1 / b.n), a.n + b.n - 2);
 }
 
-TTest paired(const std::vector<double>& a, const std::vector<double>& b) {
+namespace {
+
+std::vector<double> differencesOf(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size())
     throw Error("the samples are not pairs", kTTest,
                 "Leave out subjects who lack one of the two values");
   std::vector<double> differences(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) differences[i] = a[i] - b[i];
-  const Moments d = momentsOf(differences, kTTest);
+  return differences;
+}
+
+}  // namespace
+
+Equivalence equivalenceOfPairs(const std::vector<double>& a, const std::vector<double>& b,
+                               double margin) {
+  if (!(margin > 0))
+    throw Error("the margin must be positive", kTTest, "Say how large a difference matters");
+  const Moments d = momentsOf(differencesOf(a, b), kTTest);
+  Equivalence result{.difference = d.mean, .sd = d.sd, .low = d.mean, .high = d.mean};
+  const double error = d.sd / std::sqrt(d.n), nearest = margin - std::abs(d.mean);
+  if (!(error > 0)) {
+    result.p = nearest > 0 ? 0 : 1;
+    return result;
+  }
+  const boost::math::students_t distribution(d.n - 1);
+  const double half = error * boost::math::quantile(distribution, 0.95);
+  result.low -= half;
+  result.high += half;
+  result.p = boost::math::cdf(distribution, -nearest / error);
+  return result;
+}
+
+TTest paired(const std::vector<double>& a, const std::vector<double>& b) {
+  const Moments d = momentsOf(differencesOf(a, b), kTTest);
   requireVariance(d.sd * d.sd, std::max(std::abs(meanOf(a)), std::abs(meanOf(b))));
   return testOf(meanOf(a), meanOf(b), d.sd, d.sd / std::sqrt(d.n), d.n - 1);
 }

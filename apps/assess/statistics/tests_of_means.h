@@ -34,6 +34,19 @@ TTest pooled(const std::vector<double>& a, const std::vector<double>& b);
 /// The same subjects twice: of a_i - b_i, n - 1 degrees. Throws Error for samples of unlike size.
 TTest paired(const std::vector<double>& a, const std::vector<double>& b);
 
+/// Whether the mean of a_i - b_i lies between -margin and margin: two one-sided t-tests, n - 1
+/// degrees. Source: Schuirmann, J. Pharmacokinet. Biopharm. 15, 1987. Pairs whose differences do not
+/// vary are judged by their one difference.
+struct Equivalence {
+  double difference = 0;     ///< mean of a - b
+  double sd = 0;             ///< of the differences
+  double low = 0, high = 0;  ///< 90 % interval: within the margin exactly where p < 0.05
+  double p = 1;              ///< the larger one of the two tests': small where they are equivalent
+};
+/// Throws Error for samples of unlike size, fewer than two pairs and a margin that is not positive.
+Equivalence equivalenceOfPairs(const std::vector<double>& a, const std::vector<double>& b,
+                               double margin);
+
 /// One-way analysis of variance of independent groups. Source: Fisher 1925; omega squared: Hays
 /// 1963.
 struct Anova {

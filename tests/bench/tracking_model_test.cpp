@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "apps/bench/tracking_fit.h"
+#include "apps/bench/tracking_scene.h"
+#include "apps/station/assets.h"
+#include "tests/support/counts.h"
+#include "tests/support/files.h"
+
+/// The tracking model beside the pictures that it stands for, on other seeds than its figures are
+/// from.
+namespace palpa::bench {
+namespace {
+
+/// The shipped bench with its camera elsewhere.
+station::Station benchAt(double distance_mm) {
+  nlohmann::json file =
+      JsonFile(station::assetFile("stations/virtual_bench.json")).json();
+  file["twin"]["camera_distance_mm"] = distance_mm;
+  const std::filesystem::path path = test::freshFolder("bench", "tracking") / "station.json";
+  writeWhole(path, file.dump(), Lasts::no);
+  return station::readStation(path);
+}
+
+struct Both {
+  std::vector<TrackedSession> pictures, model;
+};
+
+Both bothAt(double distance_mm, int sessions) {
+  constexpr int kPictures = 45;
+  constexpr std::uint64_t kFirstSeed = 20001;
+  const station::Station station = benchAt(distance_mm);
+  const twin::TrackingFigures figures = twin::trackingFiguresOf(station);
+  Both both;
+  for (int i = 0; i < sessions; ++i) {
+    const std::uint64_t seed = kFirstSeed + std::uint64_t(i);
+    both.pictures.push_back(
+        trackedSession(station, seed, kPictures, TrackedBy::pictures, figures));
+    both.model.push_back(trackedSession(station, seed, kPictures, TrackedBy::model, figures));
+  }
+  return both;
+}
+
+using Figure = double (*)(const PathFigures&);
+
+/// By how much the figure of both kinds of tracking may differ by the chance of so few sessions:
+/// three standard errors, each session left out in turn (jackknife).
+double chance(const Both& both, Figure figure) {
+  double variance = 0;
+  for (const std::vector<TrackedSession>* all : {&both.pictures, &both.model}) {
+    const double n = double(all->size());
+    std::vector<double> without;
+    for (std::size_t i = 0; i < all->size(); ++i) {
+      std::vector<TrackedSession> others = *all;
+      others.erase(others.begin() + std::ptrdiff_t(i));
+      without.push_back(figure(figuresOf(others)));
+    }
+    double mean = 0;
+    for (const double x : without) mean += x / n;
+    for (const double x : without) variance += (n - 1) / n * (x - mean) * (x - mean);
+  }
+  return 3 * std::sqrt(variance);
+}
+
+/// Within 5 % of the pictures' figure, or of `whole` where that is given.
+void expectAlike(const char* name, const Both& both, Figure figure, double whole = 0) {
+  const double pictures = figure(figuresOf(both.pictures)), model = figure(figuresOf(both.model));
+  const double allowed = 0.05 * (whole > 0 ? whole : pictures) +
+                         (test::fullCounts() ? 0 : chance(both, figure));
+  std::printf("%s: pictures %.4f, model %.4f, allowed %.4f apart\n", name, pictures, model,
+              allowed);
+  EXPECT_NEAR(model, pictures, allowed) << name;
+}
+
+void expectAllAlike(const Both& both) {
+  expectAlike("shift, mm", both, [](const PathFigures& f) { return f.shift_mm; });
+  expectAlike("turn, mrad", both, [](const PathFigures& f) { return f.turn_mrad; });
+  expectAlike("filtered shift, mm", both, [](const PathFigures& f) { return f.filtered_shift_mm; });
+  expectAlike("filtered turn, mrad", both,
+              [](const PathFigures& f) { return f.filtered_turn_mrad; });
+  // Within a hundredth of all tags, a twentieth of all pictures.
+  expectAlike("tags missed", both, [](const PathFigures& f) { return f.tags_missed; }, 0.2);
+  expectAlike("poses missed", both, [](const PathFigures& f) { return f.poses_missed; }, 1);
+  // A correlation's whole is 1.
+  expectAlike("autocorrelation, 1", both, [](const PathFigures& f) { return f.autocorrelation[0]; },
+              1);
+  expectAlike("autocorrelation, 3", both, [](const PathFigures& f) { return f.autocorrelation[1]; },
+              1);
+  expectAlike("autocorrelation, 8", both, [](const PathFigures& f) { return f.autocorrelation[2]; },
+              1);
+  expectAlike("autocorrelation, 15", both,
+              [](const PathFigures& f) { return f.autocorrelation[3]; }, 1);
+}
+
+TEST(TrackingModel, PoseErrorsAreThoseOfPictures) {
+  expectAllAlike(bothAt(500, test::counted(10, 800)));
+}
+
+/// Where tags are so small that some are not found.
+TEST(TrackingModel, PoseErrorsAreThoseOfPicturesFarAway) {
+  const Both both = bothAt(950, test::counted(6, 400));
+  EXPECT_GT(figuresOf(both.pictures).tags_missed, 0.02);
+  expectAllAlike(both);
+}
+
+/// Sessions with errors of a known kind.
+TEST(PathFigures, AreWhatTheyAreCalled) {
+  TrackedSession session;
+  for (int i = 0; i < 400; ++i) {
+    const double wave = i % 2 ? 1 : -1;
+    session.measured.push_back({Vec3(3 + wave, 0, 4), Vec3(0, 2, 0)});
+    session.filtered.push_back({Vec3(3, 0, 4), Vec3(0, 0, 1)});
+  }
+  session.pictures = 500;
+  session.tags_missed = 100;
+  const PathFigures f = figuresOf({session, session});
+  EXPECT_NEAR(f.shift_mm, std::sqrt(26.0), 1e-9);
+  EXPECT_NEAR(f.turn_mrad, 2, 1e-12);
+  EXPECT_NEAR(f.filtered_shift_mm, 5, 1e-12);
+  EXPECT_NEAR(f.filtered_turn_mrad, 1, 1e-12);
+  EXPECT_NEAR(f.tags_missed, 0.2, 1e-12);
+  EXPECT_NEAR(f.poses_missed, 0.2, 1e-12);
+  EXPECT_NEAR(f.autocorrelation[0], -1, 1e-9);  // about its mean
+  EXPECT_NEAR(f.autocorrelation[2], 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace palpa::bench
