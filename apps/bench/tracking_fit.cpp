@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -179,7 +179,7 @@ void fitWidths(const std::vector<TagChance>& tags, TrackingFigures* out) {
 
 /// Two pictures of the same pose disagree so often about a tag at x where this share of the
 /// variance is common to them.
-double disagreement(double x, double lasting) {
+double disagreementAt(double x, double lasting) {
   double sum = 0, weights = 0;
   for (double phi = -4; phi <= 4; phi += 0.25) {
     const double weight = std::exp(-phi * phi / 2),
@@ -206,7 +206,7 @@ void fitLasting(const std::vector<FitView>& views, int pictures, TrackingFigures
   for (int i = 0; i < 12 && !at.empty(); ++i) {
     const double middle = (low + high) / 2;
     double expected = 0;
-    for (const double x : at) expected += disagreement(x, middle);
+    for (const double x : at) expected += disagreementAt(x, middle);
     (expected > differ ? low : high) = middle;
   }
   out->width_lasting = at.empty() ? 0 : low;

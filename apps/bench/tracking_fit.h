@@ -17,7 +17,7 @@ using ShareDone = std::function<void(double)>;
 
 struct TrackingFit {
   std::vector<double> distances{0.45, 0.6, 0.8, 1.0};  ///< m
-  double most_aside = 0.12, aside_step = 0.02;                ///< share of the distance
+  double most_aside = 0.12, aside_step = 0.02;         ///< share of the distance
   int views = 5;              ///< of each place, each with a lens of its own
   int pictures = 6;           ///< of each view, shifted at random by up to a pixel
   int repeated = 2;           ///< of these, taken a second time
@@ -28,8 +28,8 @@ struct TrackingFit {
 twin::TrackingFigures fitTracking(const station::Station& station, const TrackingFit& fit,
                                   const ShareDone& done = {});
 
-/// `palpa bench tracking --fit FILE`: the figures of the station's camera and board, one JSON object
-/// a line, and all of them as a file. Throws Error.
+/// `palpa bench tracking --fit FILE`: the figures of the station's camera and board, one JSON
+/// object a line, and all of them as a file. Throws Error.
 struct TrackingFitOptions {
   std::string station, file;  ///< station file (empty: the virtual bench); where the figures go
   bool quick = false;         ///< few views, to try it out: such figures are good for nothing else
@@ -37,8 +37,8 @@ struct TrackingFitOptions {
 };
 void fitTrackingModel(const TrackingFitOptions& options);
 
-/// `palpa bench tracking --model`: pose errors by the model beside those of pictures, on other seeds
-/// than the figures are from. One JSON object a line.
+/// `palpa bench tracking --model`: pose errors by the model beside those of pictures, on other
+/// seeds than the figures are from. One JSON object a line.
 struct TrackingModelOptions {
   std::string station;
   int sessions = 800, pictures = 45;

@@ -116,8 +116,8 @@ std::shared_ptr<TrackingModelArguments> addTrackingModel(CLI::App& tracking) {
                       "Measure the errors of poses from pictures, for sessions with --tracking "
                       "model, and write the figures to this file")
           ->type_name("FILE");
-  CLI::Option* compare = tracking.add_flag(
-      "--model", o->compare, "Compare that model with pictures of other seeds");
+  CLI::Option* compare =
+      tracking.add_flag("--model", o->compare, "Compare that model with pictures of other seeds");
   fit->excludes(compare);
   tracking
       .add_option("--station", o->fit.station,

@@ -23,8 +23,8 @@ struct RegistrationRow {
 /// Where a session's pictures come from, and what board is looked for in them: the bench's camera,
 /// the station's webcam, a film, or photographs one after the other, over and over. With
 /// `--tracking model` nothing: a model of what would be found in the bench's pictures. Throws
-/// UsageError when pictures and intrinsics do not fit, a webcam is to be watched in virtual time, or
-/// the station has what the model does not know.
+/// UsageError when pictures and intrinsics do not fit, a webcam is to be watched in virtual time,
+/// or the station has what the model does not know.
 class SessionPictures {
  public:
   SessionPictures(const SessionOptions& options, const station::Station& station);
@@ -58,7 +58,7 @@ class SessionPictures {
   calibration::CameraModel camera_;
   double rate_Hz_;
   std::optional<twin::TrackingFigures> model_;  ///< in place of the bench's pictures
-  std::unique_ptr<ar::Camera> pictures_;  ///< null: the bench's, or a webcam that is not open
+  std::unique_ptr<ar::Camera> pictures_;        ///< null: the bench's, or a webcam that is not open
   std::size_t photographs_ = 0;
   std::unique_ptr<ar::Board> board_;
   std::vector<RegistrationRow> registration_;

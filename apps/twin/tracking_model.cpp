@@ -232,7 +232,7 @@ namespace {
 
 /// Where x lies among rising numbers: the entry before it, and the share of the way to the next.
 template <class Of>
-std::pair<std::size_t, double> between(std::size_t n, double x, Of of) {
+std::pair<std::size_t, double> placeAmong(std::size_t n, double x, Of of) {
   std::size_t i = 0;
   while (i + 2 < n && x >= of(i + 1)) ++i;
   return {i, std::clamp((x - of(i)) / (of(i + 1) - of(i)), 0.0, 1.0)};
@@ -242,10 +242,11 @@ std::pair<std::size_t, double> between(std::size_t n, double x, Of of) {
 
 Vector6 TrackingModel::error(const Pose& X_CW, RandomStream& random) const {
   const Vec3 p_WC = X_CW.inverse().translation();
-  const auto [j, to_next] = between(figures_.aside.size(), p_WC.x() / p_WC.norm(),
-                                    [&](std::size_t k) { return figures_.aside[k]; });
-  const auto [i, farther] = between(figures_.distances.size(), p_WC.norm(),
-                                    [&](std::size_t k) { return figures_.distances[k].distance; });
+  const auto [j, to_next] = placeAmong(figures_.aside.size(), p_WC.x() / p_WC.norm(),
+                                       [&](std::size_t k) { return figures_.aside[k]; });
+  const auto [i, farther] = placeAmong(figures_.distances.size(), p_WC.norm(), [&](std::size_t k) {
+    return figures_.distances[k].distance;
+  });
   const Eigen::Vector2d origin = truth_.project(X_CW.translation());
   const auto errorAt = [&, j = j, to_next = to_next](const TrackingFigures::Distance& d,
                                                      const Vector6& white) {
@@ -266,8 +267,9 @@ std::vector<ar::BoardPoint> TrackingModel::found(const Pose& X_CW, std::uint64_t
   RandomStream random(picture::randomBits(seed_, number), "bench.tracking_model.picture");
   const std::vector<Corner> corners = foundCorners(X_CW, random);
   const Vector6 z = error(X_CW, random);
-  const auto [i, farther] = between(figures_.distances.size(), X_CW.inverse().translation().norm(),
-                                    [&](std::size_t k) { return figures_.distances[k].distance; });
+  const auto [i, farther] =
+      placeAmong(figures_.distances.size(), X_CW.inverse().translation().norm(),
+                 [&](std::size_t k) { return figures_.distances[k].distance; });
   const double sigma = (1 - farther) * figures_.distances[i].corner_sigma +
                        farther * figures_.distances[i + 1].corner_sigma;
   Matrix6 A = Matrix6::Zero();

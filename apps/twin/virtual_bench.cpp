@@ -115,7 +115,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
         board_moves(readBoardMoves(setup.station)),
         sway(boomSway(setup.station)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
-        seed(setup.seed),
+        world_seed(setup.seed),
         real_thing(std::move(setup.real_thing)),
         on_word(std::move(setup.on_word)) {
     const WorldTruth world = drawWorld(setup.station, setup.seed);
@@ -138,7 +138,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
     settings.latency_ns = static_cast<std::int64_t>(station.camera_latency_s * 1e9);
     VirtualScene scene;
     for (const station::OtherBoard& board : station.boards) scene.plates.push_back(board.grid);
-    camera.emplace(trueCamera(station, seed), station.board, settings, seed, scene);
+    camera.emplace(trueCamera(station, world_seed), station.board, settings, world_seed, scene);
   }
 
   HeldToolSetup toolSetup(std::unique_ptr<Hand> hand, const Pose& X_DE_start, const Pose& X_WD,
@@ -208,7 +208,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
   std::vector<BoardMove> board_moves;
   double sway;
   Pose X_CW_boom;
-  std::uint64_t seed;
+  std::uint64_t world_seed;
   TouchedObject real_thing;
   std::function<void(const Hand::Word&)> on_word;
   std::optional<VirtualCamera> camera;
@@ -246,7 +246,7 @@ runtime::CameraActivity::Exposer VirtualBench::exposer() {
 
 runtime::CameraActivity::Finder VirtualBench::finder(const TrackingFigures& figures) const {
   const auto model = std::make_shared<const TrackingModel>(
-      figures, trueCamera(impl_->station, impl_->seed), impl_->seed);
+      figures, trueCamera(impl_->station, impl_->world_seed), impl_->world_seed);
   return [impl = impl_.get(), model](std::int64_t now_ns, std::uint64_t number) {
     return model->found(impl->X_CW(now_ns), number);
   };

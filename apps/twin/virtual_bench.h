@@ -118,8 +118,8 @@ class VirtualBench {
   VirtualBench(VirtualBenchSetup setup, runtime::Bus& bus, runtime::ChannelDevice& device);
   ~VirtualBench();
 
-  runtime::Activity& activity();                     ///< hand and device mechanics, 1 kHz
-  runtime::CameraActivity::Exposer exposer();     ///< pictures: only now the camera is made
+  runtime::Activity& activity();               ///< hand and device mechanics, 1 kHz
+  runtime::CameraActivity::Exposer exposer();  ///< pictures: only now the camera is made
   /// In place of pictures
   runtime::CameraActivity::Finder finder(const TrackingFigures& figures) const;
   void observe(const runtime::CameraView& view);  ///< measures the registration

@@ -51,8 +51,9 @@ NormalEquations linearise(const Pose& X_CW, const std::vector<BoardPoint>& point
 RefinedPose refined(const Pose& start, const std::vector<BoardPoint>& points,
                     const CameraModel& camera,
                     double hopeless = std::numeric_limits<double>::infinity()) {
-  // A step promises b' step. Steps of a solution with large residuals shrink slowly, but not so
-  // slowly that all later ones together bring a hundred times as much.
+  // A step promises b' step. Once the first ones are done, steps of a solution with large residuals
+  // shrink slowly, but not so slowly that all later ones bring a hundred times as much.
+  constexpr int kFirstSteps = 8;
   constexpr double kAllLaterSteps = 100;
   Pose X = start;
   NormalEquations normal = linearise(X, points, camera);
@@ -62,7 +63,8 @@ RefinedPose refined(const Pose& start, const std::vector<BoardPoint>& points,
     Matrix6 A = normal.A;
     A.diagonal() *= 1 + damping;
     const Vector6 step = A.ldlt().solve(normal.b);
-    if (normal.cost - kAllLaterSteps * normal.b.dot(step) > hopeless) break;
+    if (iterations >= kFirstSteps && normal.cost - kAllLaterSteps * normal.b.dot(step) > hopeless)
+      break;
     const Pose next = stepped(X, step);
     const NormalEquations there = linearise(next, points, camera);
     const bool better = there.cost <= normal.cost;  // false when not a number

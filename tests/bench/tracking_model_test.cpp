@@ -16,8 +16,7 @@ namespace {
 
 /// The shipped bench with its camera elsewhere.
 station::Station benchAt(double distance_mm) {
-  nlohmann::json file =
-      JsonFile(station::assetFile("stations/virtual_bench.json")).json();
+  nlohmann::json file = JsonFile(station::assetFile("stations/virtual_bench.json")).json();
   file["twin"]["camera_distance_mm"] = distance_mm;
   const std::filesystem::path path = test::freshFolder("bench", "tracking") / "station.json";
   writeWhole(path, file.dump(), Lasts::no);
@@ -36,8 +35,7 @@ Both bothAt(double distance_mm, int sessions) {
   Both both;
   for (int i = 0; i < sessions; ++i) {
     const std::uint64_t seed = kFirstSeed + std::uint64_t(i);
-    both.pictures.push_back(
-        trackedSession(station, seed, kPictures, TrackedBy::pictures, figures));
+    both.pictures.push_back(trackedSession(station, seed, kPictures, TrackedBy::pictures, figures));
     both.model.push_back(trackedSession(station, seed, kPictures, TrackedBy::model, figures));
   }
   return both;
@@ -67,8 +65,8 @@ double chance(const Both& both, Figure figure) {
 /// Within 5 % of the pictures' figure, or of `whole` where that is given.
 void expectAlike(const char* name, const Both& both, Figure figure, double whole = 0) {
   const double pictures = figure(figuresOf(both.pictures)), model = figure(figuresOf(both.model));
-  const double allowed = 0.05 * (whole > 0 ? whole : pictures) +
-                         (test::fullCounts() ? 0 : chance(both, figure));
+  const double allowed =
+      0.05 * (whole > 0 ? whole : pictures) + (test::fullCounts() ? 0 : chance(both, figure));
   std::printf("%s: pictures %.4f, model %.4f, allowed %.4f apart\n", name, pictures, model,
               allowed);
   EXPECT_NEAR(model, pictures, allowed) << name;
@@ -81,17 +79,19 @@ void expectAllAlike(const Both& both) {
   expectAlike("filtered turn, mrad", both,
               [](const PathFigures& f) { return f.filtered_turn_mrad; });
   // Within a hundredth of all tags, a twentieth of all pictures.
-  expectAlike("tags missed", both, [](const PathFigures& f) { return f.tags_missed; }, 0.2);
-  expectAlike("poses missed", both, [](const PathFigures& f) { return f.poses_missed; }, 1);
+  expectAlike(
+      "tags missed", both, [](const PathFigures& f) { return f.tags_missed; }, 0.2);
+  expectAlike(
+      "poses missed", both, [](const PathFigures& f) { return f.poses_missed; }, 1);
   // A correlation's whole is 1.
-  expectAlike("autocorrelation, 1", both, [](const PathFigures& f) { return f.autocorrelation[0]; },
-              1);
-  expectAlike("autocorrelation, 3", both, [](const PathFigures& f) { return f.autocorrelation[1]; },
-              1);
-  expectAlike("autocorrelation, 8", both, [](const PathFigures& f) { return f.autocorrelation[2]; },
-              1);
-  expectAlike("autocorrelation, 15", both,
-              [](const PathFigures& f) { return f.autocorrelation[3]; }, 1);
+  expectAlike(
+      "autocorrelation, 1", both, [](const PathFigures& f) { return f.autocorrelation[0]; }, 1);
+  expectAlike(
+      "autocorrelation, 3", both, [](const PathFigures& f) { return f.autocorrelation[1]; }, 1);
+  expectAlike(
+      "autocorrelation, 8", both, [](const PathFigures& f) { return f.autocorrelation[2]; }, 1);
+  expectAlike(
+      "autocorrelation, 15", both, [](const PathFigures& f) { return f.autocorrelation[3]; }, 1);
 }
 
 TEST(TrackingModel, PoseErrorsAreThoseOfPictures) {

@@ -264,8 +264,7 @@ TEST(CameraActivity, PointsOfAModelTakeThePlaceOfPictures) {
     EXPECT_FALSE(seen[i].picture);
     EXPECT_EQ(seen[i].fault, ar::PictureFault::none);
     EXPECT_EQ(seen[i].pose.has_value(), i != 2);
-    EXPECT_EQ(seen[i].tracking,
-              i == 2 ? ar::TrackState::coasting : ar::TrackState::tracked);
+    EXPECT_EQ(seen[i].tracking, i == 2 ? ar::TrackState::coasting : ar::TrackState::tracked);
     ASSERT_TRUE(seen[i].X_CW);
     EXPECT_LT((seen[i].X_CW->translation() - X.translation()).norm(), 1e-4);
   }

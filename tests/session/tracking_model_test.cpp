@@ -149,10 +149,11 @@ TEST(TrackingModelSession, ScoresAreThoseOfPictures) {
   }
   const statistics::Equivalence result =
       statistics::equivalenceOfPairs(judged.model, judged.images, margin);
-  std::printf("%d pairs: the model's total is %.4f times that of pictures (90 %%: %.4f to %.4f), "
-              "differences scatter by %.4f, p = %.2g\n",
-              pairs, std::exp(result.difference), std::exp(result.low), std::exp(result.high),
-              result.sd, result.p);
+  std::printf(
+      "%d pairs: the model's total is %.4f times that of pictures (90 %%: %.4f to %.4f), "
+      "differences scatter by %.4f, p = %.2g\n",
+      pairs, std::exp(result.difference), std::exp(result.low), std::exp(result.high), result.sd,
+      result.p);
   // Two pairs may differ by chance, as two trials of one operator do; all of them may not.
   if (test::fullCounts())
     EXPECT_LT(result.p, 0.05);

@@ -1,9 +1,9 @@
 #include "apps/assess/statistics/power.h"
 
+#include <algorithm>
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
-#include <algorithm>
 #include <cmath>
 
 #include "anatomy/base/error.h"
@@ -89,8 +89,7 @@ int pairsForEquivalence(double margin, double power, double level) {
 
 int subjectsPerGroup(double effect, double power, double level, Tails tails) {
   requirePower(effect, power, level);
-  return fewest(
-      [&](int n) { return powerOfTwoGroups(effect, n, n, level, tails) >= power; });
+  return fewest([&](int n) { return powerOfTwoGroups(effect, n, n, level, tails) >= power; });
 }
 
 int subjectsPerGroupForRates(double rate_a, double rate_b, double power, double level,

@@ -35,8 +35,8 @@ TTest pooled(const std::vector<double>& a, const std::vector<double>& b);
 TTest paired(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Whether the mean of a_i - b_i lies between -margin and margin: two one-sided t-tests, n - 1
-/// degrees. Source: Schuirmann, J. Pharmacokinet. Biopharm. 15, 1987. Pairs whose differences do not
-/// vary are judged by their one difference.
+/// degrees. Source: Schuirmann, J. Pharmacokinet. Biopharm. 15, 1987. Pairs whose differences do
+/// not vary are judged by their one difference.
 struct Equivalence {
   double difference = 0;     ///< mean of a - b
   double sd = 0;             ///< of the differences
