@@ -51,10 +51,11 @@ NormalEquations linearise(const Pose& X_CW, const std::vector<BoardPoint>& point
 RefinedPose refined(const Pose& start, const std::vector<BoardPoint>& points,
                     const CameraModel& camera,
                     double hopeless = std::numeric_limits<double>::infinity()) {
-  // A step promises b' step. Once the first ones are done, steps of a solution with large residuals
-  // shrink slowly, but not so slowly that all later ones bring a hundred times as much.
-  constexpr int kFirstSteps = 8;
-  constexpr double kAllLaterSteps = 100;
+  // A step that is not damped promises b' step. Once the first ones are done, steps of a solution
+  // with large residuals shrink slowly, but not so slowly that all later ones bring a hundred times
+  // as much.
+  constexpr int kFirstSteps = 4;
+  constexpr double kAllLaterSteps = 100, kHardlyDamped = 1e-3;
   Pose X = start;
   NormalEquations normal = linearise(X, points, camera);
   double damping = 1e-4;
@@ -63,7 +64,8 @@ RefinedPose refined(const Pose& start, const std::vector<BoardPoint>& points,
     Matrix6 A = normal.A;
     A.diagonal() *= 1 + damping;
     const Vector6 step = A.ldlt().solve(normal.b);
-    if (iterations >= kFirstSteps && normal.cost - kAllLaterSteps * normal.b.dot(step) > hopeless)
+    if (iterations >= kFirstSteps && damping < kHardlyDamped &&
+        normal.cost - kAllLaterSteps * normal.b.dot(step) > hopeless)
       break;
     const Pose next = stepped(X, step);
     const NormalEquations there = linearise(next, points, camera);
@@ -95,6 +97,7 @@ constexpr double kSameSolution =
 // Beyond this a second solution is no rival of the first, by whatever noise of its pixels: it is
 // not refined to its end. Chi-squared of 100 for corners of 1 px.
 constexpr double kFarWorse = 4, kFarAbove_px2 = 100;
+constexpr std::size_t kMany = 32;  // fewer points may pass through long valleys, and cost little
 
 /// Points on the board and on the picture's plane at unit depth, lens distortion taken out.
 struct PlanarPairs {
@@ -190,7 +193,7 @@ std::vector<RefinedPose> refinedSolutions(const std::vector<BoardPoint>& points,
     if (!seesFront(one.X_CW, points)) continue;
     solutions.push_back(one);
     const double cost = one.rms_px * one.rms_px * double(points.size());
-    hopeless = std::min(hopeless, kFarWorse * cost + kFarAbove_px2);
+    if (points.size() >= kMany) hopeless = std::min(hopeless, kFarWorse * cost + kFarAbove_px2);
   }
   std::sort(solutions.begin(), solutions.end(),
             [](const RefinedPose& a, const RefinedPose& b) { return a.rms_px < b.rms_px; });
