@@ -66,15 +66,14 @@ FitPicture taken(const twin::VirtualCamera& camera, const ar::Board& board,
 /// Pictures of one view; the last of them are the first once more.
 using FitView = std::vector<FitPicture>;
 
+/// As the camera sways there.
 FitView viewOf(const twin::VirtualCamera& camera, const ar::Board& board,
-               const ar::TagGridSpec& spec, const Pose& X, const TrackingFit& fit,
+               const ar::TagGridSpec& spec, const Pose& X, const TrackingFit& fit, double sway,
                RandomStream& random) {
-  const double pixel = X.translation().norm() / camera.truth().fx;  // m on the board
+  constexpr double kLongest_ns = 100e9;
   std::vector<Pose> poses;
-  for (int i = 0; i < fit.pictures; ++i) {
-    poses.push_back(X);
-    poses.back().translation() += pixel * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0);
-  }
+  for (int i = 0; i < fit.pictures; ++i)
+    poses.push_back(twin::swayed(X, sway, std::llround(kLongest_ns * random.uniform())));
   FitView view;
   for (int i = 0; i < fit.pictures + fit.repeated; ++i)
     view.push_back(taken(camera, board, spec, poses[std::size_t(i % fit.pictures)],
@@ -110,48 +109,64 @@ Terms notNegative(const Eigen::Matrix<double, int(kTerms), int(kTerms)>& A, cons
 Terms termsBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   Terms terms;
   terms[0] = 1;
-  const Eigen::Vector2d apart = 2 * std::numbers::pi * (a - b);
-  for (int h = 1; h < int(kTerms); ++h)
-    terms[h] = 0.5 * (std::cos(h * apart.x()) + std::cos(h * apart.y()));
+  for (int h = 1; h < int(kTerms); ++h) {
+    const Eigen::Vector2d turn = twin::PixelWave::turnsOf(h) * (a - b);
+    terms[h] = 0.5 * (std::cos(turn.x()) + std::cos(turn.y()));
+  }
   return terms;
 }
 
-/// What is left of the errors besides the bias, by its parts.
-void fitSpread(const std::vector<FitView>& views, const std::vector<Vector6>& bias_of_view,
-               TrackingFigures::Distance* out) {
+/// What is left of the errors besides the bias, of all pictures.
+struct Spread {
   Eigen::Matrix<double, int(kTerms), int(kTerms)> A = decltype(A)::Zero();
   Eigen::Matrix<double, int(kTerms), 6> b = decltype(b)::Zero();
-  Vector6 squares = Vector6::Zero();
-  double pictures = 0, misses = 0, freedom = 0;
-  for (std::size_t v = 0; v < views.size(); ++v)
-    for (std::size_t i = 0; i < views[v].size(); ++i) {
-      const FitPicture& one = views[v][i];
-      if (!one.good) continue;
-      const Vector6 left = one.z - bias_of_view[v];
-      squares += left.cwiseAbs2();
+  Vector6 squares = Vector6::Zero(), noise = Vector6::Zero();
+  double pictures = 0, pairs = 0, repeated = 0, misses = 0, freedom = 0;
+
+  void add(const FitView& view, const Vector6& bias, int pictures_in_view) {
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      if (!view[i].good) continue;
+      squares += (view[i].z - bias).cwiseAbs2();
       ++pictures;
-      misses += one.misses;
-      freedom += one.freedom;
-      for (std::size_t j = 0; j < i; ++j) {
-        if (!views[v][j].good) continue;
-        const Terms terms = termsBetween(one.origin, views[v][j].origin);
-        A += terms * terms.transpose();
-        b += terms * left.cwiseProduct(views[v][j].z - bias_of_view[v]).transpose();
-      }
+      misses += view[i].misses;
+      freedom += view[i].freedom;
+      for (std::size_t j = 0; j < i; ++j)
+        if (view[j].good) addPair(view[j], view[i], bias, i - j == std::size_t(pictures_in_view));
     }
-  out->corner_sigma = std::sqrt(misses / freedom);
+  }
+  void addPair(const FitPicture& one, const FitPicture& other, const Vector6& bias, bool same) {
+    if (same) {
+      noise += (one.z - other.z).cwiseAbs2() / 2;
+      ++repeated;
+      return;
+    }
+    const Terms terms = termsBetween(one.origin, other.origin);
+    A += terms * terms.transpose();
+    b += terms * (one.z - bias).cwiseProduct(other.z - bias).transpose();
+    ++pairs;
+  }
+};
+
+/// By its parts. White is what two pictures of one pose have not in common; the rest is divided so
+/// that it adds up (an equation with the weight of all pairs).
+void fitSpread(const Spread& s, TrackingFigures::Distance* out) {
+  out->corner_sigma = std::sqrt(s.misses / s.freedom);
   for (int k = 0; k < 6; ++k) {
-    const Terms part = notNegative(A, b.col(k));
+    const double white = s.noise[k] / std::max(s.repeated, 1.0),
+                 lasting = std::max(s.squares[k] / s.pictures - white, 0.0);
+    const Terms part =
+        notNegative(s.A + s.pairs * Terms::Ones() * Terms::Ones().transpose(),
+                    s.b.col(k) + s.pairs * lasting * Terms::Ones());
     out->lasting[k] = std::sqrt(part[0]);
     for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
       out->wander[h][k] = std::sqrt(part[int(h) + 1]);
-    out->white[k] = std::sqrt(std::max(squares[k] / pictures - part.sum(), 0.0));
+    out->white[k] = std::sqrt(white);
   }
 }
 
 double normalShare(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
-/// Where tags cease to be found: the largest likelihood of a normal threshold, by Fisher's scoring.
+/// Where tags cease to be found, from all distances: the largest likelihood of a normal threshold, by Fisher's scoring.
 void fitWidths(const std::vector<TagChance>& tags, TrackingFigures* out) {
   constexpr double kSurelyFound = 25;  // px
   double a = -15 / 1.5, b = 1 / 1.5;   // found: a + b width > a normal variate
@@ -173,8 +188,25 @@ void fitWidths(const std::vector<TagChance>& tags, TrackingFigures* out) {
     b += step[1];
   }
   if (!(b > 1e-3)) return;  // every tag was found
-  out->least_width = -a / b;
   out->width_spread = 1 / b;
+  for (TrackingFigures::Distance& distance : out->distances) distance.least_width = -a / b;
+}
+
+/// So that at one distance as many are found as there were: the normal threshold is an
+/// approximation.
+void fitLeastWidth(const std::vector<TagChance>& tags, double spread,
+                   TrackingFigures::Distance* out) {
+  double found = 0;
+  for (const TagChance& tag : tags) found += tag.found;
+  if (found == 0 || found == double(tags.size())) return;
+  double low = 0, high = 100;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (low + high) / 2;
+    double expected = 0;
+    for (const TagChance& tag : tags) expected += normalShare((tag.width - middle) / spread);
+    (expected > found ? low : high) = middle;
+  }
+  out->least_width = low;
 }
 
 /// Two pictures of the same pose disagree so often about a tag at x where this share of the
@@ -190,14 +222,15 @@ double disagreementAt(double x, double lasting) {
   return sum / weights;
 }
 
-void fitLasting(const std::vector<FitView>& views, int pictures, TrackingFigures* out) {
+void fitLasting(const std::vector<FitView>& views, int pictures, double least_width,
+                TrackingFigures* out) {
   std::vector<double> at;
   double differ = 0;
   for (const FitView& view : views)
     for (std::size_t i = std::size_t(pictures); i < view.size(); ++i)
       for (std::size_t t = 0; t < view[i].tags.size(); ++t) {
         const TagChance &first = view[i - std::size_t(pictures)].tags[t], &again = view[i].tags[t];
-        const double x = (first.width - out->least_width) / out->width_spread;
+        const double x = (first.width - least_width) / out->width_spread;
         if (std::abs(x) > 3) continue;
         at.push_back(x);
         differ += first.found != again.found;
@@ -210,6 +243,17 @@ void fitLasting(const std::vector<FitView>& views, int pictures, TrackingFigures
     (expected > differ ? low : high) = middle;
   }
   out->width_lasting = at.empty() ? 0 : low;
+}
+
+Vector6 meanOf(const std::vector<FitView>& views) {
+  Vector6 sum = Vector6::Zero();
+  double good = 0;
+  for (const FitView& view : views)
+    for (const FitPicture& picture : view) {
+      if (picture.good) sum += picture.z;
+      good += picture.good;
+    }
+  return sum / std::max(good, 1.0);
 }
 
 TrackingFigures startOf(const station::Station& station, const TrackingFit& fit) {
@@ -237,37 +281,39 @@ TrackingFigures fitTracking(const station::Station& station, const TrackingFit& 
                          twin::VirtualCameraSettings{}, seed);
   }
   RandomStream random(fit.seed, "bench.tracking_fit");
+  const double sway = twin::boomSway(station);
   std::vector<FitView> all;
-  std::vector<TagChance> tags;
+  std::vector<std::vector<TagChance>> tags(fit.distances.size());
   for (std::size_t d = 0; d < fit.distances.size(); ++d) {
-    std::vector<FitView> views;
-    std::vector<Vector6> bias_of_view;
+    Spread spread;
     TrackingFigures::Distance& out = figures.distances.emplace_back();
     out.distance = fit.distances[d];
     for (const double aside : figures.aside) {
-      Vector6 sum = Vector6::Zero();
-      double good = 0;
       const double across = aside / std::sqrt(1 - aside * aside);  // as the boom is told
+      std::vector<FitView> views;
       for (const twin::VirtualCamera& camera : cameras) {
         const Pose X = twin::boomView(out.distance * random.uniform(0.99, 1.01), across);
-        views.push_back(viewOf(camera, *board, station.board, X, fit, random));
-        for (const FitPicture& picture : views.back()) {
-          tags.insert(tags.end(), picture.tags.begin(), picture.tags.end());
-          if (picture.good) sum += picture.z;
-          good += picture.good;
-        }
+        views.push_back(viewOf(camera, *board, station.board, X, fit, sway, random));
       }
-      out.bias.push_back(sum / std::max(good, 1.0));
-      bias_of_view.insert(bias_of_view.end(), cameras.size(), out.bias.back());
+      out.bias.push_back(meanOf(views));
+      for (FitView& view : views) {
+        spread.add(view, out.bias.back(), fit.pictures);
+        for (const FitPicture& picture : view)
+          tags[d].insert(tags[d].end(), picture.tags.begin(), picture.tags.end());
+        all.push_back(std::move(view));
+      }
       if (done)
         done((double(d) + double(out.bias.size()) / double(figures.aside.size())) /
              double(fit.distances.size()));
     }
-    fitSpread(views, bias_of_view, &out);
-    for (FitView& view : views) all.push_back(std::move(view));
+    fitSpread(spread, &out);
   }
-  fitWidths(tags, &figures);
-  fitLasting(all, fit.pictures, &figures);
+  std::vector<TagChance> every;
+  for (const std::vector<TagChance>& some : tags) every.insert(every.end(), some.begin(), some.end());
+  fitWidths(every, &figures);
+  fitLasting(all, fit.pictures, figures.distances.front().least_width, &figures);
+  for (std::size_t d = 0; d < tags.size(); ++d)
+    fitLeastWidth(tags[d], figures.width_spread, &figures.distances[d]);
   return figures;
 }
 
@@ -282,9 +328,9 @@ void printFigures(const TrackingFigures& figures, const std::string& station) {
     print("tracking_model.corner_sigma", distance.at("corner_sigma_px"), "px", params);
   }
   nlohmann::json params = all.at("found");
-  params.erase("least_width_px");
+  params.erase("width_spread_px");
   params.update({{"data", "simulated"}, {"station", station}});
-  print("tracking_model.least_width", figures.least_width, "px", params);
+  print("tracking_model.width_spread", figures.width_spread, "px", params);
 }
 
 TrackingFit quickFit() {

@@ -45,6 +45,7 @@ TrackingFigures::Distance readDistance(const JsonFile& file, std::size_t places)
   TrackingFigures::Distance one;
   one.distance = kMm * file.number("distance_mm", 100, 3000);
   one.corner_sigma = file.number("corner_sigma_px", 0, kMostPx);
+  one.least_width = file.number("least_width_px", 0, 1000);
   one.bias.resize(places);
   readGroups(file, "bias_px", places, &one.bias);
   one.lasting = sixNumbers(file, "lasting_px");
@@ -74,7 +75,6 @@ TrackingFigures readTrackingFigures(const std::filesystem::path& path) {
   f.board.rows = file.integer("board/rows", 1, ar::kTagFamilySize);
   f.board.tag_size = kMm * file.number("board/tag_size_mm", 2, 2000);
   f.board.spacing = kMm * file.number("board/spacing_mm", 0.1, 2000);
-  f.least_width = file.number("found/least_width_px", 0, 1000);
   f.width_spread = file.number("found/width_spread_px", 1e-3, 1000);
   f.width_lasting = file.number("found/lasting_share", 0, 1);
   f.aside = file.numbers("aside");
@@ -108,6 +108,7 @@ json jsonOf(const TrackingFigures& f) {
   for (const TrackingFigures::Distance& d : f.distances)
     distances.push_back({{"distance_mm", rounded(d.distance / kMm)},
                          {"corner_sigma_px", rounded(d.corner_sigma)},
+                         {"least_width_px", rounded(d.least_width)},
                          {"bias_px", listOf(d.bias)},
                          {"lasting_px", listOf(std::array<Vector6, 1>{d.lasting})},
                          {"white_px", listOf(std::array<Vector6, 1>{d.white})},
@@ -122,8 +123,7 @@ json jsonOf(const TrackingFigures& f) {
         {"tag_size_mm", rounded(f.board.tag_size / kMm)},
         {"spacing_mm", rounded(f.board.spacing / kMm)}}},
       {"found",
-       {{"least_width_px", rounded(f.least_width)},
-        {"width_spread_px", rounded(f.width_spread)},
+       {{"width_spread_px", rounded(f.width_spread)},
         {"lasting_share", rounded(f.width_lasting)}}},
       {"aside", f.aside},
       {"distances", distances}};
@@ -180,7 +180,7 @@ double narrowest(const std::array<Eigen::Vector2d, 4>& q) {
   return std::abs(area2) / 2 / longest;
 }
 
-PixelWave::PixelWave(RandomStream& random, int h) : turns_(2 * std::numbers::pi * h) {
+PixelWave::PixelWave(RandomStream& random, int h) : turns_(turnsOf(h)) {
   for (double& a : amplitude_) a = random.normal() / std::numbers::sqrt2;
 }
 
@@ -199,10 +199,11 @@ TrackingModel::TrackingModel(const TrackingFigures& figures, const calibration::
     for (int h = 1; h <= int(TrackingFigures::kWaves); ++h) wander_.emplace_back(random, h);
   }
   for (int i = 0; i < figures.board.columns * figures.board.rows; ++i)
-    tag_pixels_.emplace_back(random, 1);
+    tag_pixels_.emplace_back(random, 2);  // a pixel
 }
 
 std::vector<TrackingModel::Corner> TrackingModel::foundCorners(const Pose& X_CW,
+                                                               double least_width,
                                                                RandomStream& random) const {
   const TrackingFigures& f = figures_;
   const auto within = [&](const Eigen::Vector2d& q) {  // the picture's edges
@@ -221,7 +222,7 @@ std::vector<TrackingModel::Corner> TrackingModel::foundCorners(const Pose& X_CW,
     }
     const double luck = std::sqrt(f.width_lasting) * tag_pixels_[std::size_t(i)].at(pixels[0]) +
                         std::sqrt(1 - f.width_lasting) * chance;
-    const bool wide = narrowest(pixels) > f.least_width + f.width_spread * luck;
+    const bool wide = narrowest(pixels) > least_width + f.width_spread * luck;
     if (!wide || !std::all_of(pixels.begin(), pixels.end(), within)) continue;
     for (std::size_t c = 0; c < 4; ++c) all.push_back({places[c], seen[c]});
   }
@@ -240,43 +241,52 @@ std::pair<std::size_t, double> placeAmong(std::size_t n, double x, Of of) {
 
 }  // namespace
 
-Vector6 TrackingModel::error(const Pose& X_CW, RandomStream& random) const {
+TrackingFigures::Distance TrackingModel::figuresAt(const Pose& X_CW) const {
   const Vec3 p_WC = X_CW.inverse().translation();
-  const auto [j, to_next] = placeAmong(figures_.aside.size(), p_WC.x() / p_WC.norm(),
-                                       [&](std::size_t k) { return figures_.aside[k]; });
   const auto [i, farther] = placeAmong(figures_.distances.size(), p_WC.norm(), [&](std::size_t k) {
     return figures_.distances[k].distance;
   });
+  const auto [j, beyond] = placeAmong(figures_.aside.size(), p_WC.x() / p_WC.norm(),
+                                      [&](std::size_t k) { return figures_.aside[k]; });
+  const TrackingFigures::Distance &a = figures_.distances[i], &b = figures_.distances[i + 1];
+  const double near = 1 - farther, before = 1 - beyond;
+  TrackingFigures::Distance here;
+  here.distance = p_WC.norm();
+  here.corner_sigma = near * a.corner_sigma + farther * b.corner_sigma;
+  here.least_width = near * a.least_width + farther * b.least_width;
+  here.bias = {near * (before * a.bias[j] + beyond * a.bias[j + 1]) +
+               farther * (before * b.bias[j] + beyond * b.bias[j + 1])};
+  here.lasting = near * a.lasting + farther * b.lasting;
+  here.white = near * a.white + farther * b.white;
+  for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
+    here.wander[h] = near * a.wander[h] + farther * b.wander[h];
+  return here;
+}
+
+Vector6 TrackingModel::error(const Pose& X_CW, const TrackingFigures::Distance& here,
+                             RandomStream& random) const {
+  constexpr std::size_t kWaves = TrackingFigures::kWaves;
   const Eigen::Vector2d origin = truth_.project(X_CW.translation());
-  const auto errorAt = [&, j = j, to_next = to_next](const TrackingFigures::Distance& d,
-                                                     const Vector6& white) {
-    Vector6 z = (1 - to_next) * d.bias[j] + to_next * d.bias[j + 1] +
-                d.lasting.cwiseProduct(lasting_) + d.white.cwiseProduct(white);
-    for (int k = 0; k < 6; ++k)
-      for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
-        z[k] += d.wander[h][k] * wander_[std::size_t(k) * TrackingFigures::kWaves + h].at(origin);
-    return z;
-  };
-  Vector6 white;
-  for (double& w : white) w = random.normal();
-  return (1 - farther) * errorAt(figures_.distances[i], white) +
-         farther * errorAt(figures_.distances[i + 1], white);
+  Vector6 z = here.bias.front() + here.lasting.cwiseProduct(lasting_);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    z[axis] += here.white[axis] * random.normal();
+    for (std::size_t h = 0; h < kWaves; ++h)
+      z[axis] += here.wander[h][axis] * wander_[k * kWaves + h].at(origin);
+  }
+  return z;
 }
 
 std::vector<ar::BoardPoint> TrackingModel::found(const Pose& X_CW, std::uint64_t number) const {
   RandomStream random(picture::randomBits(seed_, number), "bench.tracking_model.picture");
-  const std::vector<Corner> corners = foundCorners(X_CW, random);
-  const Vector6 z = error(X_CW, random);
-  const auto [i, farther] =
-      placeAmong(figures_.distances.size(), X_CW.inverse().translation().norm(),
-                 [&](std::size_t k) { return figures_.distances[k].distance; });
-  const double sigma = (1 - farther) * figures_.distances[i].corner_sigma +
-                       farther * figures_.distances[i + 1].corner_sigma;
+  const TrackingFigures::Distance here = figuresAt(X_CW);
+  const std::vector<Corner> corners = foundCorners(X_CW, here.least_width, random);
+  const Vector6 z = error(X_CW, here, random);
   Matrix6 A = Matrix6::Zero();
   Vector6 b = Vector6::Zero();
   std::vector<Eigen::Vector2d> misses;
   for (const Corner& corner : corners) {
-    misses.push_back(sigma * Eigen::Vector2d(random.normal(), random.normal()));
+    misses.push_back(here.corner_sigma * Eigen::Vector2d(random.normal(), random.normal()));
     A += corner.seen.by_pose.transpose() * corner.seen.by_pose;
     b += corner.seen.by_pose.transpose() * misses.back();
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <vector>
 
 #include "anatomy/base/json_file.h"
@@ -25,7 +26,7 @@ namespace palpa::twin {
 ///   bias      of the detector, by distance and place of the camera: edges that lie along rows or
 ///             columns of pixels are found worse
 ///   wander    by where the pattern lies on the sensor's pixels, which the camera's sway changes:
-///             for h = 1 ... 4 a random wave of period 1/h px along both axes
+///             for h = 1 ... 4 a random wave of period 2/h px along both axes
 ///   lasting   drawn once
 ///   white     drawn for each picture
 /// What misses the pose besides (`corner_sigma`) is white, and moves no pose.
@@ -34,6 +35,7 @@ struct TrackingFigures {
   struct Distance {
     double distance = 0;
     double corner_sigma = 0;
+    double least_width = 0;         ///< of a tag of which half are found, at its narrowest
     std::vector<ar::Vector6> bias;  ///< at each of `aside`
     ar::Vector6 lasting = ar::Vector6::Zero(), white = ar::Vector6::Zero();
     std::array<ar::Vector6, kWaves> wander{};
@@ -44,10 +46,10 @@ struct TrackingFigures {
   ar::TagGridSpec board;
   std::vector<double> aside;        ///< of the camera, to the board's right; share of the distance
   std::vector<Distance> distances;  ///< rising
-  /// A tag is found that is wider than `least_width` at its narrowest, give or take a normal
-  /// variate of `width_spread`, of whose variance the share `width_lasting` comes from where the
-  /// tag lies on the pixels.
-  double least_width = 0, width_spread = 1, width_lasting = 0;
+  /// A tag is found that is wider than `least_width`, give or take a normal variate of
+  /// `width_spread`, of whose variance the share `width_lasting` comes from where the tag lies on
+  /// the pixels.
+  double width_spread = 1, width_lasting = 0;
 };
 
 /// Throws UsageError with file and field.
@@ -62,10 +64,11 @@ nlohmann::json jsonOf(const TrackingFigures& figures);
 /// px.
 double narrowest(const std::array<Eigen::Vector2d, 4>& corners);
 
-/// A random function of where something lies on the sensor, of period 1 px along both axes, mean 0,
-/// variance 1, for waves of period 1/h px.
+/// A random function of where something lies on the sensor: mean 0, variance 1, of period 2/h px
+/// along both axes.
 class PixelWave {
  public:
+  static constexpr double turnsOf(int h) { return std::numbers::pi * h; }  ///< rad a pixel
   PixelWave(RandomStream& random, int h);
   double at(const Eigen::Vector2d& pixel) const;
 
@@ -90,8 +93,12 @@ class TrackingModel {
     Vec3 p_W;
     ar::SeenPoint seen;
   };
-  std::vector<Corner> foundCorners(const Pose& X_CW, RandomStream& random) const;
-  ar::Vector6 error(const Pose& X_CW, RandomStream& random) const;
+  /// Where the camera is: with one `bias`, that of its place.
+  TrackingFigures::Distance figuresAt(const Pose& X_CW) const;
+  std::vector<Corner> foundCorners(const Pose& X_CW, double least_width,
+                                   RandomStream& random) const;
+  ar::Vector6 error(const Pose& X_CW, const TrackingFigures::Distance& here,
+                    RandomStream& random) const;
 
   TrackingFigures figures_;
   calibration::CameraModel truth_;
