@@ -6,7 +6,6 @@
 
 #include "anatomy/base/error.h"
 #include "apps/bench/bench.h"
-#include "apps/bench/estimate_check.h"
 #include "apps/bench/estimator_studies.h"
 #include "apps/bench/timing.h"
 

@@ -3,16 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "anatomy/base/random.h"
-#include "anatomy/base/whole_file.h"
-#include "apps/bench/timing.h"
-#include "apps/bench/tracking_scene.h"
-#include "apps/station/assets.h"
 #include "apps/twin/bench_truth.h"
 #include "apps/twin/virtual_camera.h"
 
@@ -24,12 +18,6 @@ using ar::Vector6;
 using twin::TrackingFigures;
 constexpr std::size_t kTerms = 1 + TrackingFigures::kWaves;  ///< what lasts, and the waves
 using Terms = Eigen::Matrix<double, int(kTerms), 1>;
-
-/// Whether a tag of this width was found.
-struct TagChance {
-  double width = 0;
-  bool found = false;
-};
 
 struct FitPicture {
   Vector6 z = Vector6::Zero();
@@ -50,8 +38,9 @@ FitPicture taken(const twin::VirtualCamera& camera, const ar::Board& board,
     const std::array<Vec3, 4> places = ar::tagCorners(spec, spec.first_id + i);
     std::array<Eigen::Vector2d, 4> pixels;
     for (std::size_t c = 0; c < 4; ++c) pixels[c] = camera.truth().project(X * places[c]);
-    picture.tags.push_back(
-        {twin::narrowest(pixels), found.count({places[0].x(), places[0].y()}) > 0});
+    if (twin::isInPicture(pixels, camera.truth()))
+      picture.tags.push_back(
+          {twin::narrowest(pixels), found.count({places[0].x(), places[0].y()}) > 0});
   }
   constexpr std::size_t kEnough = 16;
   picture.good = points.size() >= kEnough;
@@ -116,135 +105,6 @@ Terms termsBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return terms;
 }
 
-/// What is left of the errors besides the bias, of all pictures.
-struct Spread {
-  Eigen::Matrix<double, int(kTerms), int(kTerms)> A = decltype(A)::Zero();
-  Eigen::Matrix<double, int(kTerms), 6> b = decltype(b)::Zero();
-  Vector6 squares = Vector6::Zero(), noise = Vector6::Zero();
-  double pictures = 0, pairs = 0, repeated = 0, misses = 0, freedom = 0;
-
-  void add(const FitView& view, const Vector6& bias, int pictures_in_view) {
-    for (std::size_t i = 0; i < view.size(); ++i) {
-      if (!view[i].good) continue;
-      squares += (view[i].z - bias).cwiseAbs2();
-      ++pictures;
-      misses += view[i].misses;
-      freedom += view[i].freedom;
-      for (std::size_t j = 0; j < i; ++j)
-        if (view[j].good) addPair(view[j], view[i], bias, i - j == std::size_t(pictures_in_view));
-    }
-  }
-  void addPair(const FitPicture& one, const FitPicture& other, const Vector6& bias, bool same) {
-    if (same) {
-      noise += (one.z - other.z).cwiseAbs2() / 2;
-      ++repeated;
-      return;
-    }
-    const Terms terms = termsBetween(one.origin, other.origin);
-    A += terms * terms.transpose();
-    b += terms * (one.z - bias).cwiseProduct(other.z - bias).transpose();
-    ++pairs;
-  }
-};
-
-/// By its parts. White is what two pictures of one pose have not in common; the rest is divided so
-/// that it adds up (an equation with the weight of all pairs).
-void fitSpread(const Spread& s, TrackingFigures::Distance* out) {
-  out->corner_sigma = std::sqrt(s.misses / s.freedom);
-  for (int k = 0; k < 6; ++k) {
-    const double white = s.noise[k] / std::max(s.repeated, 1.0),
-                 lasting = std::max(s.squares[k] / s.pictures - white, 0.0);
-    const Terms part =
-        notNegative(s.A + s.pairs * Terms::Ones() * Terms::Ones().transpose(),
-                    s.b.col(k) + s.pairs * lasting * Terms::Ones());
-    out->lasting[k] = std::sqrt(part[0]);
-    for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
-      out->wander[h][k] = std::sqrt(part[int(h) + 1]);
-    out->white[k] = std::sqrt(white);
-  }
-}
-
-double normalShare(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
-
-/// Where tags cease to be found, from all distances: the largest likelihood of a normal threshold, by Fisher's scoring.
-void fitWidths(const std::vector<TagChance>& tags, TrackingFigures* out) {
-  constexpr double kSurelyFound = 25;  // px
-  double a = -15 / 1.5, b = 1 / 1.5;   // found: a + b width > a normal variate
-  for (int iteration = 0; iteration < 30; ++iteration) {
-    Eigen::Matrix2d information = 1e-9 * Eigen::Matrix2d::Identity();
-    Eigen::Vector2d score = Eigen::Vector2d::Zero();
-    for (const TagChance& tag : tags) {
-      if (tag.width > kSurelyFound) continue;
-      const double x = a + b * tag.width;
-      const double share = std::clamp(normalShare(x), 1e-9, 1 - 1e-9),
-                   density = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi),
-                   weight = density / (share * (1 - share));
-      const Eigen::Vector2d by(1, tag.width);
-      score += weight * ((tag.found ? 1 : 0) - share) * by;
-      information += weight * density * by * by.transpose();
-    }
-    const Eigen::Vector2d step = information.ldlt().solve(score);
-    a += step[0];
-    b += step[1];
-  }
-  if (!(b > 1e-3)) return;  // every tag was found
-  out->width_spread = 1 / b;
-  for (TrackingFigures::Distance& distance : out->distances) distance.least_width = -a / b;
-}
-
-/// So that at one distance as many are found as there were: the normal threshold is an
-/// approximation.
-void fitLeastWidth(const std::vector<TagChance>& tags, double spread,
-                   TrackingFigures::Distance* out) {
-  double found = 0;
-  for (const TagChance& tag : tags) found += tag.found;
-  if (found == 0 || found == double(tags.size())) return;
-  double low = 0, high = 100;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = (low + high) / 2;
-    double expected = 0;
-    for (const TagChance& tag : tags) expected += normalShare((tag.width - middle) / spread);
-    (expected > found ? low : high) = middle;
-  }
-  out->least_width = low;
-}
-
-/// Two pictures of the same pose disagree so often about a tag at x where this share of the
-/// variance is common to them.
-double disagreementAt(double x, double lasting) {
-  double sum = 0, weights = 0;
-  for (double phi = -4; phi <= 4; phi += 0.25) {
-    const double weight = std::exp(-phi * phi / 2),
-                 share = normalShare((x - std::sqrt(lasting) * phi) / std::sqrt(1 - lasting));
-    sum += weight * 2 * share * (1 - share);
-    weights += weight;
-  }
-  return sum / weights;
-}
-
-void fitLasting(const std::vector<FitView>& views, int pictures, double least_width,
-                TrackingFigures* out) {
-  std::vector<double> at;
-  double differ = 0;
-  for (const FitView& view : views)
-    for (std::size_t i = std::size_t(pictures); i < view.size(); ++i)
-      for (std::size_t t = 0; t < view[i].tags.size(); ++t) {
-        const TagChance &first = view[i - std::size_t(pictures)].tags[t], &again = view[i].tags[t];
-        const double x = (first.width - least_width) / out->width_spread;
-        if (std::abs(x) > 3) continue;
-        at.push_back(x);
-        differ += first.found != again.found;
-      }
-  double low = 0, high = 0.99;
-  for (int i = 0; i < 12 && !at.empty(); ++i) {
-    const double middle = (low + high) / 2;
-    double expected = 0;
-    for (const double x : at) expected += disagreementAt(x, middle);
-    (expected > differ ? low : high) = middle;
-  }
-  out->width_lasting = at.empty() ? 0 : low;
-}
-
 Vector6 meanOf(const std::vector<FitView>& views) {
   Vector6 sum = Vector6::Zero();
   double good = 0;
@@ -254,6 +114,117 @@ Vector6 meanOf(const std::vector<FitView>& views) {
       good += picture.good;
     }
   return sum / std::max(good, 1.0);
+}
+
+/// Views from one place.
+struct FitPlace {
+  std::vector<FitView> views;
+  Vector6 bias = Vector6::Zero();
+  double strength = 1;
+
+  /// Without the bias, which was taken from so few views itself.
+  Vector6 left(const FitPicture& picture) const {
+    const double n = double(views.size());
+    return std::sqrt(n / std::max(n - 1, 1.0)) * (picture.z - bias);
+  }
+};
+
+/// `of(place, view, picture)` for each good picture.
+template <class Of>
+void eachPicture(const std::vector<FitPlace>& places, const Of& of) {
+  for (const FitPlace& place : places)
+    for (const FitView& view : place.views)
+      for (std::size_t i = 0; i < view.size(); ++i)
+        if (view[i].good) of(place, view, i);
+}
+
+/// White is what two pictures of one pose have not in common.
+Vector6 whiteOf(const std::vector<FitPlace>& places, int pictures) {
+  Vector6 noise = Vector6::Zero();
+  double repeated = 0;
+  eachPicture(places, [&](const FitPlace&, const FitView& view, std::size_t i) {
+    const std::size_t first = i - std::size_t(pictures);
+    if (i < std::size_t(pictures) || !view[first].good) return;
+    noise += (view[i].z - view[first].z).cwiseAbs2() / 2;
+    ++repeated;
+  });
+  return noise / std::max(repeated, 1.0);
+}
+
+/// How much stronger what is not white is from each place, against all of them; neighbours share.
+void fitStrength(const Vector6& white, std::vector<FitPlace>* places) {
+  const auto variance = [&](const std::vector<FitPlace>& of) {
+    Vector6 sum = Vector6::Zero();
+    double n = 0;
+    eachPicture(of, [&](const FitPlace& place, const FitView& view, std::size_t i) {
+      sum += place.left(view[i]).cwiseAbs2();
+      ++n;
+    });
+    return Vector6((sum / std::max(n, 1.0) - white).cwiseMax(1e-9));
+  };
+  const Vector6 all = variance(*places);
+  std::vector<double> ratio;
+  for (const FitPlace& place : *places)
+    ratio.push_back(variance({place}).cwiseQuotient(all).mean());
+  for (std::size_t j = 0; j < ratio.size(); ++j) {
+    const double before = ratio[j > 0 ? j - 1 : j],
+                 after = ratio[std::min(j + 1, ratio.size() - 1)];
+    (*places)[j].strength = std::sqrt((before + 2 * ratio[j] + after) / 4);
+  }
+}
+
+/// What is not white, by its parts: least squares over all pairs of pictures of one view, and so
+/// that the parts add up (an equation with the weight of all pairs).
+void fitSpread(const std::vector<FitPlace>& places, const Vector6& white,
+               TrackingFigures::Distance* out) {
+  Eigen::Matrix<double, int(kTerms), int(kTerms)> A = decltype(A)::Zero();
+  Eigen::Matrix<double, int(kTerms), 6> b = decltype(b)::Zero();
+  Vector6 squares = Vector6::Zero();
+  double pictures = 0, pairs = 0, misses = 0, freedom = 0;
+  eachPicture(places, [&](const FitPlace& place, const FitView& view, std::size_t i) {
+    const double by = 1 / (place.strength * place.strength);
+    squares += by * (place.left(view[i]).cwiseAbs2() - white);
+    ++pictures;
+    misses += view[i].misses;
+    freedom += view[i].freedom;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!view[j].good) continue;
+      const Terms terms = termsBetween(view[i].origin, view[j].origin);
+      A += terms * terms.transpose();
+      b += by * terms * place.left(view[i]).cwiseProduct(place.left(view[j])).transpose();
+      ++pairs;
+    }
+  });
+  out->corner_sigma = std::sqrt(misses / freedom);
+  out->white = white.cwiseSqrt();
+  A += pairs * Terms::Ones() * Terms::Ones().transpose();
+  b += pairs * Terms::Ones() * (squares / pictures).cwiseMax(0).transpose();
+  for (int k = 0; k < 6; ++k) {
+    const Terms part = notNegative(A, b.col(k));
+    out->lasting[k] = std::sqrt(part[0]);
+    for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
+      out->wander[h][k] = std::sqrt(part[int(h) + 1]);
+  }
+}
+
+std::vector<TagChance> tagsOf(const FitPlace& place) {
+  std::vector<TagChance> tags;
+  for (const FitView& view : place.views)
+    for (const FitPicture& picture : view)
+      tags.insert(tags.end(), picture.tags.begin(), picture.tags.end());
+  return tags;
+}
+
+/// Those that were seen twice from one pose.
+std::vector<std::array<TagChance, 2>> repeatedTags(const std::vector<FitPlace>& places,
+                                                   int pictures) {
+  std::vector<std::array<TagChance, 2>> tags;
+  for (const FitPlace& place : places)
+    for (const FitView& view : place.views)
+      for (std::size_t i = std::size_t(pictures); i < view.size(); ++i)
+        for (std::size_t t = 0; t < view[i].tags.size(); ++t)
+          tags.push_back({view[i - std::size_t(pictures)].tags[t], view[i].tags[t]});
+  return tags;
 }
 
 TrackingFigures startOf(const station::Station& station, const TrackingFit& fit) {
@@ -282,135 +253,42 @@ TrackingFigures fitTracking(const station::Station& station, const TrackingFit& 
   }
   RandomStream random(fit.seed, "bench.tracking_fit");
   const double sway = twin::boomSway(station);
-  std::vector<FitView> all;
-  std::vector<std::vector<TagChance>> tags(fit.distances.size());
-  for (std::size_t d = 0; d < fit.distances.size(); ++d) {
-    Spread spread;
-    TrackingFigures::Distance& out = figures.distances.emplace_back();
-    out.distance = fit.distances[d];
+  std::vector<FitPlace> all;
+  std::vector<TagChance> every;
+  for (const double distance : fit.distances) {
+    std::vector<FitPlace> places;
     for (const double aside : figures.aside) {
       const double across = aside / std::sqrt(1 - aside * aside);  // as the boom is told
-      std::vector<FitView> views;
+      FitPlace& place = places.emplace_back();
       for (const twin::VirtualCamera& camera : cameras) {
-        const Pose X = twin::boomView(out.distance * random.uniform(0.99, 1.01), across);
-        views.push_back(viewOf(camera, *board, station.board, X, fit, sway, random));
+        const Pose X = twin::boomView(distance * random.uniform(0.99, 1.01), across);
+        place.views.push_back(viewOf(camera, *board, station.board, X, fit, sway, random));
       }
-      out.bias.push_back(meanOf(views));
-      for (FitView& view : views) {
-        spread.add(view, out.bias.back(), fit.pictures);
-        for (const FitPicture& picture : view)
-          tags[d].insert(tags[d].end(), picture.tags.begin(), picture.tags.end());
-        all.push_back(std::move(view));
-      }
+      place.bias = meanOf(place.views);
+      const std::vector<TagChance> tags = tagsOf(place);
+      every.insert(every.end(), tags.begin(), tags.end());
       if (done)
-        done((double(d) + double(out.bias.size()) / double(figures.aside.size())) /
-             double(fit.distances.size()));
+        done(double(all.size() + places.size()) /
+             double(fit.distances.size() * figures.aside.size()));
     }
-    fitSpread(spread, &out);
+    const Vector6 white = whiteOf(places, fit.pictures);
+    fitStrength(white, &places);
+    TrackingFigures::Distance& out = figures.distances.emplace_back();
+    out.distance = distance;
+    fitSpread(places, white, &out);
+    for (FitPlace& place : places) {
+      out.bias.push_back(place.bias);
+      out.strength.push_back(place.strength);
+      all.push_back(std::move(place));
+    }
   }
-  std::vector<TagChance> every;
-  for (const std::vector<TagChance>& some : tags) every.insert(every.end(), some.begin(), some.end());
-  fitWidths(every, &figures);
-  fitLasting(all, fit.pictures, figures.distances.front().least_width, &figures);
-  for (std::size_t d = 0; d < tags.size(); ++d)
-    fitLeastWidth(tags[d], figures.width_spread, &figures.distances[d]);
+  const TagWidths widths = fitTagWidths(every);
+  figures.width_spread = widths.spread;
+  figures.width_lasting = lastingShareOf(repeatedTags(all, fit.pictures), widths);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    figures.distances[i / figures.aside.size()].least_width.push_back(
+        leastWidthOf(tagsOf(all[i]), widths.spread, widths.least));
   return figures;
-}
-
-namespace {
-
-void printFigures(const TrackingFigures& figures, const std::string& station) {
-  const nlohmann::json all = twin::jsonOf(figures);
-  for (const nlohmann::json& distance : all.at("distances")) {
-    nlohmann::json params = distance;
-    params.erase("corner_sigma_px");
-    params["data"] = "simulated";
-    print("tracking_model.corner_sigma", distance.at("corner_sigma_px"), "px", params);
-  }
-  nlohmann::json params = all.at("found");
-  params.erase("width_spread_px");
-  params.update({{"data", "simulated"}, {"station", station}});
-  print("tracking_model.width_spread", figures.width_spread, "px", params);
-}
-
-TrackingFit quickFit() {
-  TrackingFit fit;
-  fit.distances = {0.45, 1.0};
-  fit.most_aside = fit.aside_step = 0.12;
-  fit.views = 2;
-  fit.pictures = 3;
-  fit.repeated = 1;
-  return fit;
-}
-
-}  // namespace
-
-void fitTrackingModel(const TrackingFitOptions& options) {
-  const station::Station station = station::readStation(
-      options.station.empty() ? station::assetFile("stations/virtual_bench.json")
-                              : std::filesystem::path(options.station));
-  const TrackingFigures figures =
-      fitTracking(station, options.quick ? quickFit() : TrackingFit{}, options.done);
-  printFigures(figures, station.title);
-  nlohmann::json file = twin::jsonOf(figures);
-  file["about"] = "Errors of poses from simulated pictures, for sessions with --tracking model.";
-  file["source"] = "palpa bench tracking --fit, on pictures of the virtual camera (" +
-                   station.title + "), lenses of the seeds from " +
-                   std::to_string(TrackingFit{}.seed) + " on";
-  WholeFile written(options.file);
-  written.write(file.dump(1) + "\n");
-  written.finish();
-}
-
-namespace {
-
-double ratioOf(double model, double pictures) { return pictures > 0 ? model / pictures : 1; }
-
-void printComparison(const PathFigures& pictures, const PathFigures& model,
-                     const nlohmann::json& params) {
-  const std::tuple<const char*, double PathFigures::*, const char*> all[]{
-      {"shift_rms", &PathFigures::shift_mm, "mm"},
-      {"turn_rms", &PathFigures::turn_mrad, "mrad"},
-      {"filtered_shift_rms", &PathFigures::filtered_shift_mm, "mm"},
-      {"filtered_turn_rms", &PathFigures::filtered_turn_mrad, "mrad"},
-      {"tags_missed", &PathFigures::tags_missed, "1"},
-      {"poses_missed", &PathFigures::poses_missed, "1"}};
-  for (const auto& [name, figure, unit] : all) {
-    nlohmann::json both = params;
-    both.update({{"model", model.*figure}, {"pictures", pictures.*figure}, {"of", unit}});
-    print(std::string("tracking_model.") + name, ratioOf(model.*figure, pictures.*figure), "1",
-          both);
-  }
-  for (std::size_t l = 0; l < kTrackingLags.size(); ++l) {
-    nlohmann::json both = params;
-    both.update({{"model", model.autocorrelation[l]},
-                 {"pictures", pictures.autocorrelation[l]},
-                 {"lag_pictures", kTrackingLags[l]}});
-    print("tracking_model.autocorrelation_difference",
-          model.autocorrelation[l] - pictures.autocorrelation[l], "1", both);
-  }
-}
-
-}  // namespace
-
-void benchTrackingModel(const TrackingModelOptions& options) {
-  const station::Station station = station::readStation(
-      options.station.empty() ? station::assetFile("stations/virtual_bench.json")
-                              : std::filesystem::path(options.station));
-  const TrackingFigures figures = twin::trackingFiguresOf(station);
-  std::vector<TrackedSession> pictures, model;
-  for (int i = 0; i < options.sessions; ++i) {
-    const std::uint64_t seed = options.seed + std::uint64_t(i);
-    pictures.push_back(
-        trackedSession(station, seed, options.pictures, TrackedBy::pictures, figures));
-    model.push_back(trackedSession(station, seed, options.pictures, TrackedBy::model, figures));
-    if (options.done) options.done((i + 1.0) / options.sessions);
-  }
-  printComparison(figuresOf(pictures), figuresOf(model),
-                  {{"sessions", options.sessions},
-                   {"pictures_each", options.pictures},
-                   {"seed", options.seed},
-                   {"data", "simulated"}});
 }
 
 }  // namespace palpa::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -18,16 +19,34 @@ using ShareDone = std::function<void(double)>;
 struct TrackingFit {
   /// m; dense about where the shipped benches have their camera
   std::vector<double> distances{0.45, 0.48, 0.5, 0.53, 0.6, 0.8, 0.9, 1.0};
-  double most_aside = 0.12, aside_step = 0.02;         ///< share of the distance
-  int views = 5;              ///< of each place, each with a lens of its own
-  int pictures = 6;           ///< of each view, as the camera sways
-  int repeated = 3;           ///< of these, taken a second time
-  std::uint64_t seed = 5001;  ///< of the first lens
+  double most_aside = 0.12, aside_step = 0.02;  ///< share of the distance
+  int views = 8;                                ///< of each place, each with a lens of its own
+  int pictures = 6;                             ///< of each view, as the camera sways
+  int repeated = 3;                             ///< of these, taken a second time
+  std::uint64_t seed = 5001;                    ///< of the first lens
 };
 
 /// Of the station's camera and board, from pictures of the virtual camera.
 twin::TrackingFigures fitTracking(const station::Station& station, const TrackingFit& fit,
                                   const ShareDone& done = {});
+
+/// How wide a tag was in a picture, at its narrowest, px; whether it was found there.
+struct TagChance {
+  double width = 0;
+  bool found = false;
+};
+
+/// Where tags cease to be found: the normal distribution of largest likelihood.
+struct TagWidths {
+  double least = 0, spread = 1;  ///< mean and standard deviation of the width that it takes, px
+};
+TagWidths fitTagWidths(const std::vector<TagChance>& tags);
+/// The mean with which as many of these tags would be found as were; `otherwise`: where all were,
+/// or none.
+double leastWidthOf(const std::vector<TagChance>& tags, double spread, double otherwise);
+/// Which share of the variance two pictures of one pose have in common, by how often they disagree
+/// about a tag.
+double lastingShareOf(const std::vector<std::array<TagChance, 2>>& tags, const TagWidths& widths);
 
 /// `palpa bench tracking --fit FILE`: the figures of the station's camera and board, one JSON
 /// object a line, and all of them as a file. Throws Error.

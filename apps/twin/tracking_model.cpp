@@ -41,11 +41,22 @@ void readGroups(const JsonFile& file, const std::string& field, std::size_t coun
   for (std::size_t i = 0; i < count; ++i) (*groups)[i] = Vector6::Map(values.data() + 6 * i);
 }
 
+/// One at each place.
+std::vector<double> atPlaces(const JsonFile& file, const std::string& field, std::size_t places,
+                             double most) {
+  std::vector<double> values = file.numbers(field);
+  if (values.size() != places) file.refuse(field, "must be " + std::to_string(places) + " numbers");
+  for (const double x : values)
+    if (!(x >= 0 && x <= most)) file.refuse(field, "must not be negative, nor so large");
+  return values;
+}
+
 TrackingFigures::Distance readDistance(const JsonFile& file, std::size_t places) {
   TrackingFigures::Distance one;
   one.distance = kMm * file.number("distance_mm", 100, 3000);
   one.corner_sigma = file.number("corner_sigma_px", 0, kMostPx);
-  one.least_width = file.number("least_width_px", 0, 1000);
+  one.strength = atPlaces(file, "strength", places, 100);
+  one.least_width = atPlaces(file, "least_width_px", places, 1000);
   one.bias.resize(places);
   readGroups(file, "bias_px", places, &one.bias);
   one.lasting = sixNumbers(file, "lasting_px");
@@ -93,6 +104,12 @@ using nlohmann::json;
 /// As a file shows it: what is finer than a ten-thousandth of a pixel is chance.
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 
+json listOf(const std::vector<double>& values) {
+  json all = json::array();
+  for (const double x : values) all.push_back(rounded(x));
+  return all;
+}
+
 template <class Groups>
 json listOf(const Groups& groups) {
   json all = json::array();
@@ -108,7 +125,8 @@ json jsonOf(const TrackingFigures& f) {
   for (const TrackingFigures::Distance& d : f.distances)
     distances.push_back({{"distance_mm", rounded(d.distance / kMm)},
                          {"corner_sigma_px", rounded(d.corner_sigma)},
-                         {"least_width_px", rounded(d.least_width)},
+                         {"strength", listOf(d.strength)},
+                         {"least_width_px", listOf(d.least_width)},
                          {"bias_px", listOf(d.bias)},
                          {"lasting_px", listOf(std::array<Vector6, 1>{d.lasting})},
                          {"white_px", listOf(std::array<Vector6, 1>{d.white})},
@@ -123,8 +141,7 @@ json jsonOf(const TrackingFigures& f) {
         {"tag_size_mm", rounded(f.board.tag_size / kMm)},
         {"spacing_mm", rounded(f.board.spacing / kMm)}}},
       {"found",
-       {{"width_spread_px", rounded(f.width_spread)},
-        {"lasting_share", rounded(f.width_lasting)}}},
+       {{"width_spread_px", rounded(f.width_spread)}, {"lasting_share", rounded(f.width_lasting)}}},
       {"aside", f.aside},
       {"distances", distances}};
 }
@@ -170,6 +187,14 @@ TrackingFigures trackingFiguresOf(const station::Station& station) {
   return figures;
 }
 
+bool isInPicture(const std::array<Eigen::Vector2d, 4>& corners,
+                 const calibration::CameraModel& camera) {
+  return std::all_of(corners.begin(), corners.end(), [&](const Eigen::Vector2d& q) {
+    return q.x() >= -0.5 && q.y() >= -0.5 && q.x() <= camera.width - 0.5 &&
+           q.y() <= camera.height - 0.5;
+  });
+}
+
 double narrowest(const std::array<Eigen::Vector2d, 4>& q) {
   double longest = 1, area2 = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -202,14 +227,9 @@ TrackingModel::TrackingModel(const TrackingFigures& figures, const calibration::
     tag_pixels_.emplace_back(random, 2);  // a pixel
 }
 
-std::vector<TrackingModel::Corner> TrackingModel::foundCorners(const Pose& X_CW,
-                                                               double least_width,
+std::vector<TrackingModel::Corner> TrackingModel::foundCorners(const Pose& X_CW, double least_width,
                                                                RandomStream& random) const {
   const TrackingFigures& f = figures_;
-  const auto within = [&](const Eigen::Vector2d& q) {  // the picture's edges
-    return q.x() >= -0.5 && q.y() >= -0.5 && q.x() <= truth_.width - 0.5 &&
-           q.y() <= truth_.height - 0.5;
-  };
   std::vector<Corner> all;
   for (int i = 0; i < f.board.columns * f.board.rows; ++i) {
     const double chance = random.normal();  // drawn for every tag, so that none shifts the others'
@@ -223,7 +243,7 @@ std::vector<TrackingModel::Corner> TrackingModel::foundCorners(const Pose& X_CW,
     const double luck = std::sqrt(f.width_lasting) * tag_pixels_[std::size_t(i)].at(pixels[0]) +
                         std::sqrt(1 - f.width_lasting) * chance;
     const bool wide = narrowest(pixels) > least_width + f.width_spread * luck;
-    if (!wide || !std::all_of(pixels.begin(), pixels.end(), within)) continue;
+    if (!wide || !isInPicture(pixels, truth_)) continue;
     for (std::size_t c = 0; c < 4; ++c) all.push_back({places[c], seen[c]});
   }
   return all;
@@ -249,17 +269,26 @@ TrackingFigures::Distance TrackingModel::figuresAt(const Pose& X_CW) const {
   const auto [j, beyond] = placeAmong(figures_.aside.size(), p_WC.x() / p_WC.norm(),
                                       [&](std::size_t k) { return figures_.aside[k]; });
   const TrackingFigures::Distance &a = figures_.distances[i], &b = figures_.distances[i + 1];
-  const double near = 1 - farther, before = 1 - beyond;
+  const auto mixed = [t = farther](const auto& x, const auto& y) { return (1 - t) * x + t * y; };
+  const auto placed = [&, j = j, u = beyond](const auto& x, const auto& y) {
+    return mixed((1 - u) * x[j] + u * x[j + 1], (1 - u) * y[j] + u * y[j + 1]);
+  };
   TrackingFigures::Distance here;
   here.distance = p_WC.norm();
-  here.corner_sigma = near * a.corner_sigma + farther * b.corner_sigma;
-  here.least_width = near * a.least_width + farther * b.least_width;
-  here.bias = {near * (before * a.bias[j] + beyond * a.bias[j + 1]) +
-               farther * (before * b.bias[j] + beyond * b.bias[j + 1])};
-  here.lasting = near * a.lasting + farther * b.lasting;
-  here.white = near * a.white + farther * b.white;
-  for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
-    here.wander[h] = near * a.wander[h] + farther * b.wander[h];
+  here.corner_sigma = mixed(a.corner_sigma, b.corner_sigma);
+  here.least_width = {placed(a.least_width, b.least_width)};
+  here.strength = {placed(a.strength, b.strength)};
+  here.bias = {Vector6::Zero()};
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const auto bias = [k, j = j, u = beyond](const TrackingFigures::Distance& d) {
+      return (1 - u) * d.bias[j][k] + u * d.bias[j + 1][k];
+    };
+    here.bias.front()[k] = mixed(bias(a), bias(b));
+    here.lasting[k] = mixed(a.lasting[k], b.lasting[k]);
+    here.white[k] = mixed(a.white[k], b.white[k]);
+    for (std::size_t h = 0; h < TrackingFigures::kWaves; ++h)
+      here.wander[h][k] = mixed(a.wander[h][k], b.wander[h][k]);
+  }
   return here;
 }
 
@@ -267,12 +296,13 @@ Vector6 TrackingModel::error(const Pose& X_CW, const TrackingFigures::Distance& 
                              RandomStream& random) const {
   constexpr std::size_t kWaves = TrackingFigures::kWaves;
   const Eigen::Vector2d origin = truth_.project(X_CW.translation());
-  Vector6 z = here.bias.front() + here.lasting.cwiseProduct(lasting_);
+  const double strength = here.strength.front();
+  Vector6 z = here.bias.front() + strength * here.lasting.cwiseProduct(lasting_);
   for (std::size_t k = 0; k < 6; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
     z[axis] += here.white[axis] * random.normal();
     for (std::size_t h = 0; h < kWaves; ++h)
-      z[axis] += here.wander[h][axis] * wander_[k * kWaves + h].at(origin);
+      z[axis] += strength * here.wander[h][axis] * wander_[k * kWaves + h].at(origin);
   }
   return z;
 }
@@ -280,7 +310,7 @@ Vector6 TrackingModel::error(const Pose& X_CW, const TrackingFigures::Distance& 
 std::vector<ar::BoardPoint> TrackingModel::found(const Pose& X_CW, std::uint64_t number) const {
   RandomStream random(picture::randomBits(seed_, number), "bench.tracking_model.picture");
   const TrackingFigures::Distance here = figuresAt(X_CW);
-  const std::vector<Corner> corners = foundCorners(X_CW, here.least_width, random);
+  const std::vector<Corner> corners = foundCorners(X_CW, here.least_width.front(), random);
   const Vector6 z = error(X_CW, here, random);
   Matrix6 A = Matrix6::Zero();
   Vector6 b = Vector6::Zero();

@@ -27,7 +27,7 @@ namespace palpa::twin {
 ///             columns of pixels are found worse
 ///   wander    by where the pattern lies on the sensor's pixels, which the camera's sway changes:
 ///             for h = 1 ... 4 a random wave of period 2/h px along both axes
-///   lasting   drawn once
+///   lasting   drawn once; this and `wander` times the place's `strength`
 ///   white     drawn for each picture
 /// What misses the pose besides (`corner_sigma`) is white, and moves no pose.
 struct TrackingFigures {
@@ -35,8 +35,9 @@ struct TrackingFigures {
   struct Distance {
     double distance = 0;
     double corner_sigma = 0;
-    double least_width = 0;         ///< of a tag of which half are found, at its narrowest
-    std::vector<ar::Vector6> bias;  ///< at each of `aside`
+    // At each of `aside`
+    std::vector<ar::Vector6> bias;
+    std::vector<double> strength, least_width;  ///< the latter: of a tag of which half are found
     ar::Vector6 lasting = ar::Vector6::Zero(), white = ar::Vector6::Zero();
     std::array<ar::Vector6, kWaves> wander{};
   };
@@ -60,8 +61,12 @@ TrackingFigures trackingFiguresOf(const station::Station& station);
 /// The same as data, without remarks.
 nlohmann::json jsonOf(const TrackingFigures& figures);
 
-/// Half the width of a tag in a picture is seen along its diagonal; this is the least across it,
-/// px.
+/// Whether all of a tag's corners lie within the picture: others are not found.
+bool isInPicture(const std::array<Eigen::Vector2d, 4>& corners,
+                 const calibration::CameraModel& camera);
+
+/// How wide a tag is in a picture across its narrower direction, px: its area over its longest
+/// edge.
 double narrowest(const std::array<Eigen::Vector2d, 4>& corners);
 
 /// A random function of where something lies on the sensor: mean 0, variance 1, of period 2/h px
@@ -93,7 +98,7 @@ class TrackingModel {
     Vec3 p_W;
     ar::SeenPoint seen;
   };
-  /// Where the camera is: with one `bias`, that of its place.
+  /// Where the camera is: with one `bias`, `strength` and `least_width`, those of its place.
   TrackingFigures::Distance figuresAt(const Pose& X_CW) const;
   std::vector<Corner> foundCorners(const Pose& X_CW, double least_width,
                                    RandomStream& random) const;

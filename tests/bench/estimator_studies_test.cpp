@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "apps/bench/estimate_check.h"
 #include "tests/support/counts.h"
 
 /// The estimators beside the bound that the data set them (500 sets each in the full run: then the

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "anatomy/base/whole_file.h"
 #include "apps/bench/tracking_fit.h"
 #include "apps/bench/tracking_scene.h"
 #include "apps/station/assets.h"
@@ -103,6 +104,30 @@ TEST(TrackingModel, PoseErrorsAreThoseOfPicturesFarAway) {
   const Both both = bothAt(950, test::counted(6, 400));
   EXPECT_GT(figuresOf(both.pictures).tags_missed, 0.02);
   expectAllAlike(both);
+}
+
+/// Tags drawn as the model draws them give back what they were drawn with.
+TEST(TrackingFit, FindsTheWidthsThatTagsWereDrawnWith) {
+  RandomStream random(11, "test.widths");
+  constexpr TagWidths kDrawn{14.5, 1.5};
+  constexpr double kLasting = 0.6;
+  std::vector<TagChance> tags;
+  std::vector<std::array<TagChance, 2>> repeated;
+  for (int i = 0; i < 20000; ++i) {
+    const double width = random.uniform(9, 24), common = std::sqrt(kLasting) * random.normal();
+    const auto found = [&] {
+      return width >
+             kDrawn.least + kDrawn.spread * (common + std::sqrt(1 - kLasting) * random.normal());
+    };
+    repeated.push_back({TagChance{width, found()}, TagChance{width, found()}});
+    tags.push_back(repeated.back()[0]);
+  }
+  const TagWidths widths = fitTagWidths(tags);
+  EXPECT_NEAR(widths.least, kDrawn.least, 0.1);  // some 5 sigma: 6,000 tags are in doubt
+  EXPECT_NEAR(widths.spread, kDrawn.spread, 0.15);
+  EXPECT_NEAR(lastingShareOf(repeated, widths), kLasting, 0.05);
+  EXPECT_NEAR(leastWidthOf(tags, kDrawn.spread, 0), kDrawn.least, 0.15);
+  EXPECT_EQ(leastWidthOf({{30, true}, {31, true}}, kDrawn.spread, 7), 7);
 }
 
 /// Sessions with errors of a known kind.

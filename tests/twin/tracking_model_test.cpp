@@ -33,7 +33,8 @@ TrackingFigures perfect() {
   for (const double distance : {0.3, 1.5}) {
     TrackingFigures::Distance& d = f.distances.emplace_back();
     d.distance = distance;
-    d.least_width = 5;
+    d.least_width = {5, 5};
+    d.strength = {1, 1};
     d.bias.assign(2, Vector6::Zero());
     d.wander.fill(Vector6::Zero());
   }
@@ -144,7 +145,7 @@ double shareFound(const TrackingFigures& figures, const Pose& X) {
 }
 
 TEST(TrackingModel, NarrowTagsAreNotFound) {
-  TrackingFigures figures = with([](auto* d) { d->least_width = 14.5; });
+  TrackingFigures figures = with([](auto* d) { d->least_width = {14.5, 14.5}; });
   const Pose X = boomView(1.0, 0);
   figures.width_spread = 1;
   for (const double lasting : {0.0, 1.0}) {
