@@ -55,18 +55,18 @@ FitPicture taken(const twin::VirtualCamera& camera, const ar::Board& board,
 /// Pictures of one view; the last of them are the first once more.
 using FitView = std::vector<FitPicture>;
 
-/// As the camera sways there.
+/// As the camera sways there: from one moment on, close together and farther apart.
 FitView viewOf(const twin::VirtualCamera& camera, const ar::Board& board,
                const ar::TagGridSpec& spec, const Pose& X, const TrackingFit& fit, double sway,
                RandomStream& random) {
-  constexpr double kLongest_ns = 100e9;
+  constexpr double kLongest = 100;  // s
+  const double begin = kLongest * random.uniform();
   std::vector<Pose> poses;
-  for (int i = 0; i < fit.pictures; ++i)
-    poses.push_back(twin::swayed(X, sway, std::llround(kLongest_ns * random.uniform())));
+  for (const double after : fit.seconds)
+    poses.push_back(twin::swayed(X, sway, std::llround(1e9 * (begin + after))));
   FitView view;
-  for (int i = 0; i < fit.pictures + fit.repeated; ++i)
-    view.push_back(taken(camera, board, spec, poses[std::size_t(i % fit.pictures)],
-                         std::uint64_t(random.bits() >> 40)));
+  for (std::size_t i = 0; i < fit.seconds.size() + fit.repeated; ++i)
+    view.push_back(taken(camera, board, spec, poses[i % poses.size()], random.bits() >> 40));
   return view;
 }
 
@@ -98,10 +98,8 @@ Terms notNegative(const Eigen::Matrix<double, int(kTerms), int(kTerms)>& A, cons
 Terms termsBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   Terms terms;
   terms[0] = 1;
-  for (int h = 1; h < int(kTerms); ++h) {
-    const Eigen::Vector2d turn = twin::PixelWave::turnsOf(h) * (a - b);
-    terms[h] = 0.5 * (std::cos(turn.x()) + std::cos(turn.y()));
-  }
+  for (std::size_t wave = 0; wave < TrackingFigures::kWaves; ++wave)
+    terms[Eigen::Index(wave) + 1] = twin::PixelWave::correlation(wave, a - b);
   return terms;
 }
 
@@ -121,6 +119,7 @@ struct FitPlace {
   std::vector<FitView> views;
   Vector6 bias = Vector6::Zero();
   double strength = 1;
+  double weight = 1;  ///< how often a camera stands there
 
   /// Without the bias, which was taken from so few views itself.
   Vector6 left(const FitPicture& picture) const {
@@ -139,12 +138,12 @@ void eachPicture(const std::vector<FitPlace>& places, const Of& of) {
 }
 
 /// White is what two pictures of one pose have not in common.
-Vector6 whiteOf(const std::vector<FitPlace>& places, int pictures) {
+Vector6 whiteOf(const std::vector<FitPlace>& places, std::size_t pictures) {
   Vector6 noise = Vector6::Zero();
   double repeated = 0;
   eachPicture(places, [&](const FitPlace&, const FitView& view, std::size_t i) {
-    const std::size_t first = i - std::size_t(pictures);
-    if (i < std::size_t(pictures) || !view[first].good) return;
+    const std::size_t first = i - pictures;
+    if (i < pictures || !view[first].good) return;
     noise += (view[i].z - view[first].z).cwiseAbs2() / 2;
     ++repeated;
   });
@@ -180,19 +179,19 @@ void fitSpread(const std::vector<FitPlace>& places, const Vector6& white,
   Eigen::Matrix<double, int(kTerms), int(kTerms)> A = decltype(A)::Zero();
   Eigen::Matrix<double, int(kTerms), 6> b = decltype(b)::Zero();
   Vector6 squares = Vector6::Zero();
-  double pictures = 0, pairs = 0, misses = 0, freedom = 0;
+  double pictures = 0, pairs = 0, misses = 0, freedom = 0;  // the first two: weights
   eachPicture(places, [&](const FitPlace& place, const FitView& view, std::size_t i) {
-    const double by = 1 / (place.strength * place.strength);
+    const double by = place.weight / (place.strength * place.strength);
     squares += by * (place.left(view[i]).cwiseAbs2() - white);
-    ++pictures;
-    misses += view[i].misses;
-    freedom += view[i].freedom;
+    pictures += place.weight;
+    misses += place.weight * view[i].misses;
+    freedom += place.weight * view[i].freedom;
     for (std::size_t j = 0; j < i; ++j) {
       if (!view[j].good) continue;
       const Terms terms = termsBetween(view[i].origin, view[j].origin);
-      A += terms * terms.transpose();
+      A += place.weight * terms * terms.transpose();
       b += by * terms * place.left(view[i]).cwiseProduct(place.left(view[j])).transpose();
-      ++pairs;
+      pairs += place.weight;
     }
   });
   out->corner_sigma = std::sqrt(misses / freedom);
@@ -217,13 +216,13 @@ std::vector<TagChance> tagsOf(const FitPlace& place) {
 
 /// Those that were seen twice from one pose.
 std::vector<std::array<TagChance, 2>> repeatedTags(const std::vector<FitPlace>& places,
-                                                   int pictures) {
+                                                   std::size_t pictures) {
   std::vector<std::array<TagChance, 2>> tags;
   for (const FitPlace& place : places)
     for (const FitView& view : place.views)
-      for (std::size_t i = std::size_t(pictures); i < view.size(); ++i)
+      for (std::size_t i = pictures; i < view.size(); ++i)
         for (std::size_t t = 0; t < view[i].tags.size(); ++t)
-          tags.push_back({view[i - std::size_t(pictures)].tags[t], view[i].tags[t]});
+          tags.push_back({view[i - pictures].tags[t], view[i].tags[t]});
   return tags;
 }
 
@@ -265,13 +264,14 @@ TrackingFigures fitTracking(const station::Station& station, const TrackingFit& 
         place.views.push_back(viewOf(camera, *board, station.board, X, fit, sway, random));
       }
       place.bias = meanOf(place.views);
+      place.weight = std::max(std::exp(-0.5 * std::pow(aside / twin::kBoomAside, 2)), 0.05);
       const std::vector<TagChance> tags = tagsOf(place);
       every.insert(every.end(), tags.begin(), tags.end());
       if (done)
         done(double(all.size() + places.size()) /
              double(fit.distances.size() * figures.aside.size()));
     }
-    const Vector6 white = whiteOf(places, fit.pictures);
+    const Vector6 white = whiteOf(places, fit.seconds.size());
     fitStrength(white, &places);
     TrackingFigures::Distance& out = figures.distances.emplace_back();
     out.distance = distance;
@@ -284,7 +284,7 @@ TrackingFigures fitTracking(const station::Station& station, const TrackingFit& 
   }
   const TagWidths widths = fitTagWidths(every);
   figures.width_spread = widths.spread;
-  figures.width_lasting = lastingShareOf(repeatedTags(all, fit.pictures), widths);
+  figures.width_lasting = lastingShareOf(repeatedTags(all, fit.seconds.size()), widths);
   for (std::size_t i = 0; i < all.size(); ++i)
     figures.distances[i / figures.aside.size()].least_width.push_back(
         leastWidthOf(tagsOf(all[i]), widths.spread, widths.least));

@@ -17,13 +17,15 @@ namespace palpa::bench {
 using ShareDone = std::function<void(double)>;
 
 struct TrackingFit {
-  /// m; dense about where the shipped benches have their camera
-  std::vector<double> distances{0.45, 0.48, 0.5, 0.53, 0.6, 0.8, 0.9, 1.0};
+  /// m: dense where the shipped benches have their camera, and on both sides of where the virtual
+  /// camera changes its texture (0.633 and 0.895 m, VirtualCamera)
+  std::vector<double> distances{0.46, 0.48, 0.5, 0.53, 0.62, 0.645, 0.75, 0.88, 0.91, 0.95, 1.0};
   double most_aside = 0.12, aside_step = 0.02;  ///< share of the distance
-  int views = 8;                                ///< of each place, each with a lens of its own
-  int pictures = 6;                             ///< of each view, as the camera sways
-  int repeated = 3;                             ///< of these, taken a second time
-  std::uint64_t seed = 5001;                    ///< of the first lens
+  int views = 12;                               ///< of each place, each with a lens of its own
+  /// when pictures of a view are taken, as the camera sways
+  std::vector<double> seconds{0, 1 / 15.0, 3 / 15.0, 8 / 15.0, 1, 2, 3};
+  std::size_t repeated = 2;   ///< of these, taken a second time
+  std::uint64_t seed = 5001;  ///< of the first lens
 };
 
 /// Of the station's camera and board, from pictures of the virtual camera.

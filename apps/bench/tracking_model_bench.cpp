@@ -34,7 +34,7 @@ TrackingFit quickFit() {
   fit.distances = {0.45, 1.0};
   fit.most_aside = fit.aside_step = 0.12;
   fit.views = 2;
-  fit.pictures = 3;
+  fit.seconds = {0, 0.2};
   fit.repeated = 1;
   return fit;
 }

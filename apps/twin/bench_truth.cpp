@@ -125,7 +125,7 @@ Pose cameraOnBoom(const station::Station& station, std::uint64_t seed) {
   const double distance =
       kMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
              station.file.number("twin/camera_distance_spread_mm", 0, 500) * random.normal());
-  return boomView(distance, 0.04 * random.normal());
+  return boomView(distance, kBoomAside * random.normal());
 }
 
 Pose swayed(const Pose& X_CW_boom, double sway, std::int64_t t_ns) {

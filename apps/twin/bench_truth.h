@@ -29,6 +29,7 @@ Pose trueSample(const station::Station& station, std::uint64_t seed);
 /// X_CW of a camera on a boom on the trainee's side, looking between board and patient; `distance`,
 /// m, from the board; `aside`: to its right, a share of that.
 Pose boomView(double distance, double aside);
+inline constexpr double kBoomAside = 0.04;  ///< standard deviation of `aside`, [chosen]
 /// Where the station's stands.
 Pose cameraOnBoom(const station::Station& station, std::uint64_t seed);
 /// The boom sways a little: two slow sines of `sway`, m.

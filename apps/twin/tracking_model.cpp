@@ -205,14 +205,27 @@ double narrowest(const std::array<Eigen::Vector2d, 4>& q) {
   return std::abs(area2) / 2 / longest;
 }
 
-PixelWave::PixelWave(RandomStream& random, int h) : turns_(turnsOf(h)) {
-  for (double& a : amplitude_) a = random.normal() / std::numbers::sqrt2;
+namespace {
+
+/// rad: how far a wave turns on the way.
+double turnOf(std::size_t wave, const Eigen::Vector2d& way) {
+  constexpr std::array<double, 6> kPerTwoPixels{1, 2, 3, 4, 6, 8};
+  const std::size_t n = kPerTwoPixels.size();
+  return std::numbers::pi * kPerTwoPixels[wave % n] * (wave < n ? way.x() : way.y());
 }
 
+}  // namespace
+
+PixelWave::PixelWave(RandomStream& random, std::size_t wave)
+    : wave_(wave), cosine_(random.normal()), sine_(random.normal()) {}
+
 double PixelWave::at(const Eigen::Vector2d& pixel) const {
-  const double u = turns_ * pixel.x(), v = turns_ * pixel.y();
-  return amplitude_[0] * std::cos(u) + amplitude_[1] * std::sin(u) + amplitude_[2] * std::cos(v) +
-         amplitude_[3] * std::sin(v);
+  const double turn = turnOf(wave_, pixel);
+  return cosine_ * std::cos(turn) + sine_ * std::sin(turn);
+}
+
+double PixelWave::correlation(std::size_t wave, const Eigen::Vector2d& apart) {
+  return std::cos(turnOf(wave, apart));
 }
 
 TrackingModel::TrackingModel(const TrackingFigures& figures, const calibration::CameraModel& truth,
@@ -221,10 +234,11 @@ TrackingModel::TrackingModel(const TrackingFigures& figures, const calibration::
   RandomStream random(seed, "bench.tracking_model");
   for (int i = 0; i < 6; ++i) {
     lasting_[i] = random.normal();
-    for (int h = 1; h <= int(TrackingFigures::kWaves); ++h) wander_.emplace_back(random, h);
+    for (std::size_t wave = 0; wave < TrackingFigures::kWaves; ++wave)
+      wander_.emplace_back(random, wave);
   }
   for (int i = 0; i < figures.board.columns * figures.board.rows; ++i)
-    tag_pixels_.emplace_back(random, 2);  // a pixel
+    tag_pixels_.push_back({PixelWave(random, 1), PixelWave(random, 7)});
 }
 
 std::vector<TrackingModel::Corner> TrackingModel::foundCorners(const Pose& X_CW, double least_width,
@@ -240,8 +254,10 @@ std::vector<TrackingModel::Corner> TrackingModel::foundCorners(const Pose& X_CW,
       seen[c] = ar::seenPoint(X_CW, places[c], truth_);
       pixels[c] = seen[c].pixel;
     }
-    const double luck = std::sqrt(f.width_lasting) * tag_pixels_[std::size_t(i)].at(pixels[0]) +
-                        std::sqrt(1 - f.width_lasting) * chance;
+    const auto& [along, across] = tag_pixels_[std::size_t(i)];
+    const double luck =
+        std::sqrt(f.width_lasting / 2) * (along.at(pixels[0]) + across.at(pixels[0])) +
+        std::sqrt(1 - f.width_lasting) * chance;
     const bool wide = narrowest(pixels) > least_width + f.width_spread * luck;
     if (!wide || !isInPicture(pixels, truth_)) continue;
     for (std::size_t c = 0; c < 4; ++c) all.push_back({places[c], seen[c]});

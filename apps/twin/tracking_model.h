@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <numbers>
 #include <vector>
 
 #include "anatomy/base/json_file.h"
@@ -26,12 +25,12 @@ namespace palpa::twin {
 ///   bias      of the detector, by distance and place of the camera: edges that lie along rows or
 ///             columns of pixels are found worse
 ///   wander    by where the pattern lies on the sensor's pixels, which the camera's sway changes:
-///             for h = 1 ... 4 a random wave of period 2/h px along both axes
+///             random waves along rows and along columns (PixelWave)
 ///   lasting   drawn once; this and `wander` times the place's `strength`
 ///   white     drawn for each picture
 /// What misses the pose besides (`corner_sigma`) is white, and moves no pose.
 struct TrackingFigures {
-  static constexpr std::size_t kWaves = 4;
+  static constexpr std::size_t kWaves = 12;  ///< of each of six
   struct Distance {
     double distance = 0;
     double corner_sigma = 0;
@@ -69,17 +68,18 @@ bool isInPicture(const std::array<Eigen::Vector2d, 4>& corners,
 /// edge.
 double narrowest(const std::array<Eigen::Vector2d, 4>& corners);
 
-/// A random function of where something lies on the sensor: mean 0, variance 1, of period 2/h px
-/// along both axes.
+/// A random function of where something lies on the sensor: mean 0, variance 1. Waves 0 to 5 run
+/// along rows, 6 to 11 along columns, with periods of 2, 1, 2/3, 1/2, 1/3 and 1/4 px.
 class PixelWave {
  public:
-  static constexpr double turnsOf(int h) { return std::numbers::pi * h; }  ///< rad a pixel
-  PixelWave(RandomStream& random, int h);
+  PixelWave(RandomStream& random, std::size_t wave);
   double at(const Eigen::Vector2d& pixel) const;
+  /// Correlation of two places, by what lies between them, px.
+  static double correlation(std::size_t wave, const Eigen::Vector2d& apart);
 
  private:
-  double turns_;
-  std::array<double, 4> amplitude_;
+  std::size_t wave_;
+  double cosine_, sine_;  ///< amplitudes
 };
 
 /// In place of the virtual camera: the points of the station's board that would be found in its
@@ -108,9 +108,9 @@ class TrackingModel {
   TrackingFigures figures_;
   calibration::CameraModel truth_;
   std::uint64_t seed_;
-  std::vector<PixelWave> wander_;      ///< kWaves for each of six
-  ar::Vector6 lasting_;                ///< standard normal
-  std::vector<PixelWave> tag_pixels_;  ///< one a tag
+  std::vector<PixelWave> wander_;                     ///< kWaves for each of six
+  ar::Vector6 lasting_;                               ///< standard normal
+  std::vector<std::array<PixelWave, 2>> tag_pixels_;  ///< of each tag: of a pixel, both ways
 };
 
 }  // namespace palpa::twin
