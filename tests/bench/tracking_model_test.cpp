@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "anatomy/base/whole_file.h"
 #include "apps/bench/tracking_fit.h"
@@ -44,23 +45,23 @@ Both bothAt(double distance_mm, int sessions) {
 
 using Figure = double (*)(const PathFigures&);
 
-/// By how much the figure of both kinds of tracking may differ by the chance of so few sessions:
-/// three standard errors, each session left out in turn (jackknife).
+std::vector<TrackedSession> without(std::size_t i, std::vector<TrackedSession> all) {
+  all.erase(all.begin() + std::ptrdiff_t(i));
+  return all;
+}
+
+/// By how much the figures of both kinds of tracking may differ by the chance of so few sessions:
+/// four standard errors of their difference, each session left out in turn (jackknife).
 double chance(const Both& both, Figure figure) {
-  double variance = 0;
-  for (const std::vector<TrackedSession>* all : {&both.pictures, &both.model}) {
-    const double n = double(all->size());
-    std::vector<double> without;
-    for (std::size_t i = 0; i < all->size(); ++i) {
-      std::vector<TrackedSession> others = *all;
-      others.erase(others.begin() + std::ptrdiff_t(i));
-      without.push_back(figure(figuresOf(others)));
-    }
-    double mean = 0;
-    for (const double x : without) mean += x / n;
-    for (const double x : without) variance += (n - 1) / n * (x - mean) * (x - mean);
-  }
-  return 3 * std::sqrt(variance);
+  const std::size_t n = both.pictures.size();
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < n; ++i)
+    differences.push_back(figure(figuresOf(without(i, both.model))) -
+                          figure(figuresOf(without(i, both.pictures))));
+  const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / double(n);
+  double squares = 0;
+  for (const double x : differences) squares += (x - mean) * (x - mean);
+  return 4 * std::sqrt(squares * double(n - 1) / double(n));
 }
 
 /// Within 5 % of the pictures' figure, or of `whole` where that is given.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -36,6 +37,31 @@ TEST(BenchTracking, HoldsWhatIsPromised) {
   EXPECT_EQ(value.at("false_poses"), 0);
   EXPECT_EQ(value.at("flip_rate"), 0);
   EXPECT_TRUE(value.contains("roi_speedup"));  // a cost: shown, not judged here
+}
+
+/// The tracking model: its figures as lines and as a file that a station can name, and then the
+/// model beside pictures.
+TEST(BenchTracking, MeasuresTheTrackingModelAndComparesIt) {
+  const Folder here;
+  Outcome outcome = palpa({"bench", "tracking", "--fit", "figures.json", "--quick"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::map<std::string, int> lines;
+  std::istringstream text(outcome.out);
+  for (std::string line; std::getline(text, line);)
+    ++lines[nlohmann::json::parse(line).at("metric").get<std::string>()];
+  EXPECT_EQ(lines["tracking_model.corner_sigma"], 2);
+  EXPECT_EQ(lines["tracking_model.width_spread"], 1);
+  nlohmann::json station = nlohmann::json::parse(
+      std::ifstream(std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json"));
+  station["twin"]["tracking_figures"] = "figures.json";
+  std::ofstream(here.path() / "station.json") << station;
+  outcome = palpa({"bench", "tracking", "--model", "--sessions", "1", "--station", "station.json"},
+                  here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* metric : {"shift_rms", "turn_rms", "filtered_shift_rms", "filtered_turn_rms",
+                             "tags_missed", "poses_missed", "autocorrelation_difference"})
+    EXPECT_NE(outcome.out.find("tracking_model." + std::string(metric)), std::string::npos)
+        << metric;
 }
 
 }  // namespace

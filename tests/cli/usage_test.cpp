@@ -112,6 +112,8 @@ TEST(Usage, ContradictionsAreRefused) {
                    "--operator person");
   expectWrongUsage({"paracentesis", "--operator", "person", "--quiet"}, "DISPLAY");
   expectWrongUsage(session({"--display", "window"}), "--display window");
+  expectWrongUsage({"paracentesis", "--operator", "expert", "--fast", "--tracking", "model"},
+                   "--no-views");
   expectWrongUsage(session({"--camera", "*.png"}), "--intrinsics");
   expectWrongUsage(session({"--camera", "*.png", "--intrinsics", "a.yml"}), "--board");
   expectWrongUsage(session({"--board", "chessboard:9x6:0.025"}), "--camera");
