@@ -5,10 +5,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "apps/os/child_process.h"
 #include "apps/os/real_time.h"
@@ -222,6 +226,30 @@ TEST(Memory, LargePiecesGoBackAsSoonAsTheyAreFree) {
     ::_exit(mallinfo2().hblks == before ? 0 : 4);
   };
   EXPECT_EXIT(given_back(), testing::ExitedWithCode(0), "");
+}
+
+/// Pages of this process that are in memory.
+long residentPages() {
+  std::ifstream statm("/proc/self/statm");
+  long size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident;
+}
+
+TEST(Memory, WhatIsFreeBetweenPiecesInUseGoesBack) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer has its own memory";
+  constexpr std::size_t kPiece = 20'000, kPieces = 2000;
+  std::vector<std::unique_ptr<char[]>> pieces;
+  for (std::size_t i = 0; i < kPieces; ++i) {
+    pieces.emplace_back(new char[kPiece]);
+    std::fill_n(pieces.back().get(), kPiece, 'x');
+  }
+  for (std::size_t i = 0; i < kPieces; ++i)
+    if (i % 4 != 0) pieces[i].reset();
+  const long before = residentPages();
+  giveFreeMemoryBack();
+  const auto free = static_cast<long>(3 * kPieces / 4 * kPiece) / ::sysconf(_SC_PAGESIZE);
+  EXPECT_GT(before - residentPages(), free / 2);
 }
 
 }  // namespace
