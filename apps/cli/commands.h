@@ -29,12 +29,13 @@ void addRender(CLI::App& program);
 void addBoard(CLI::App& program);
 void addPhantom(CLI::App& program);
 void addExport(CLI::App& program);
-void addRecords(CLI::App& program);  ///< trainees and their trials
-void addStudy(CLI::App& program);    ///< a protocol's sessions, who is where in it
-void addRate(CLI::App& program);     ///< human raters
-void addReport(CLI::App& program);   ///< pages of a trainee or a group
-void addDoctor(CLI::App& program);   ///< is the station well?
-void addConsole(CLI::App& program);  ///< the educator's pages
+void addRecords(CLI::App& program);   ///< trainees and their trials
+void addStudy(CLI::App& program);     ///< a protocol's sessions, who is where in it
+void addCampaign(CLI::App& program);  ///< simulated sessions by the thousand
+void addRate(CLI::App& program);      ///< human raters
+void addReport(CLI::App& program);    ///< pages of a trainee or a group
+void addDoctor(CLI::App& program);    ///< is the station well?
+void addConsole(CLI::App& program);   ///< the educator's pages
 void addBench(CLI::App& program);
 void addManual(
     CLI::App& program,

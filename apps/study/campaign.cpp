@@ -5,6 +5,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
+#include "anatomy/base/text_forms.h"
 #include "apps/record/store/record_store.h"
 #include "apps/station/assets.h"
 #include "apps/study/protocol.h"
@@ -17,6 +18,7 @@ using training::Engine;
 
 constexpr int kMostOfAKind = 100'000, kMostTrialsOfASession = 1000, kLastSeed = 1'000'000'000;
 constexpr double kMostSessions = 100'000, kMostTrialsInAll = 1'000'000;
+constexpr std::size_t kLongestTitle = 200;
 constexpr const char* kSkilled[]{"expert", "novice"};
 
 fs::path besidesCampaign(const JsonFile& file, const std::string& field, const std::string& name) {
@@ -122,7 +124,7 @@ std::string modeIn(const JsonFile& file) {
   return mode;
 }
 
-CampaignSetting settingIn(const JsonFile& file, Engine engine, const fs::path& folder) {
+CampaignSetting campaignSetting(const JsonFile& file, Engine engine, const fs::path& folder) {
   refuseOthers(file, engine);
   CampaignSetting s;
   s.name = needName(file, "name");
@@ -143,7 +145,7 @@ CampaignSetting settingIn(const JsonFile& file, Engine engine, const fs::path& f
 void readSettings(const JsonFile& file, Campaign* campaign) {
   std::set<std::string> names;
   for (const JsonFile& entry : file.entries("settings")) {
-    campaign->settings.push_back(settingIn(entry, campaign->engine, campaign->file.parent_path()));
+    campaign->settings.push_back(campaignSetting(entry, campaign->engine, campaign->file.parent_path()));
     if (!names.insert(campaign->settings.back().name).second)
       entry.refuse("name", "is another setting's, too");
   }
@@ -175,7 +177,7 @@ Campaign readCampaign(const fs::path& path) {
   Campaign c;
   c.file = path;
   c.id = needName(file, "id");
-  c.title = file.text("title");
+  c.title = plainText(file.text("title"), kLongestTitle);
   readTasks(file, &c);
   if (file.has("station")) c.station = besidesCampaign(file, "station", file.text("station"));
   readOperators(file, &c);

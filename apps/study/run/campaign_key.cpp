@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr char kForm[] = "palpa campaign session 1";
 /// What a session may read of the program's own, whatever its files name.
 constexpr const char* kReadByAll[]{"patients/reference.json", "stations", "operators",
-                                   "presentations", "phantoms", "checklists"};
+                                   "presentations",           "phantoms", "checklists"};
 /// Of the UUIDs of such sessions. [chosen] at random
 constexpr char kNamespace[] = "7d0a6a3e-5a0b-4c0e-9d7c-5f1f3f5c2b61";
 constexpr std::size_t kLongestName = 1024;
@@ -63,14 +63,13 @@ class NamedFiles {
 
 /// What every session of this program shares.
 std::string programText(NamedFiles* files) {
-  std::string text =
-      std::string(kForm) + "\nprogram " + sha256OfFile("/proc/self/exe") + "\nassets";
+  static const std::string program = sha256OfFile("/proc/self/exe");  // that runs, not its heir
+  std::string text = std::string(kForm) + "\nprogram " + program + "\nassets";
   for (const char* name : kReadByAll) {
     const fs::path asset = station::assetFile(name);
     if (!fs::is_directory(asset)) text += files->text(asset);
     for (const fs::path& file : entriesOf(asset))
-      if (fs::is_regular_file(file))
-        text += " " + file.filename().string() + files->text(file);
+      if (fs::is_regular_file(file)) text += " " + file.filename().string() + files->text(file);
   }
   return text + "\n";
 }
@@ -101,12 +100,12 @@ std::vector<std::string> keysOf(const Campaign& campaign) {
     const CampaignSession s = sessionOf(campaign, n);
     const CampaignPatient& patient = campaign.patients[s.patient];
     const std::string drawn = " seed " + std::to_string(patient.seed);
-    keys.push_back(sha256(
-        shared + "task" + files.text(campaign.tasks[s.task]) + "\npatient" +
-        (patient.file.empty() ? drawn : files.text(patient.file)) + "\noperator " +
-        campaign.operators[s.who].name + files.text(operatorFileOf(campaign, n)) + "\n" +
-        settingText(campaign.settings[s.setting]) + "seed " + std::to_string(s.seed) + "\ntrials " +
-        std::to_string(campaign.trials) + "\n"));
+    keys.push_back(
+        sha256(shared + "task" + files.text(campaign.tasks[s.task]) + "\npatient" +
+               (patient.file.empty() ? drawn : files.text(patient.file)) + "\noperator " +
+               campaign.operators[s.who].name + files.text(operatorFileOf(campaign, n)) + "\n" +
+               settingText(campaign.settings[s.setting]) + "seed " + std::to_string(s.seed) +
+               "\ntrials " + std::to_string(campaign.trials) + "\n"));
   }
   return keys;
 }

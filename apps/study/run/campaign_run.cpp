@@ -24,9 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kTable = "trials.csv", *kEvidence = "session.palpa",
-                     *kReport = "report.html", *kPrinted = "output.txt";
-constexpr std::int64_t kLook_ns = 500 * runtime::kMillisecond;
+constexpr const char *kTable = "trials.csv", *kEvidence = "session.palpa", *kReport = "report.html",
+                     *kPrinted = "output.txt";
+constexpr std::int64_t kCampaignLook_ns = 500 * runtime::kMillisecond;
 constexpr std::size_t kHopeless = 10,  ///< failures before the first success: the rest would, too
     kNamed = 10;                       ///< sessions that are named where many could be
 constexpr const char *kBusy = "another process computes it", *kLeft = "it was interrupted";
@@ -130,7 +130,7 @@ class Run {
     for (bool asked = false; !pool_.isIdle() || mayBegin();) {
       progress.done(static_cast<int>(done_));
       begin();
-      for (const os::WorkerNews& news : pool_.await(kLook_ns)) learn(news);
+      for (const os::WorkerNews& news : pool_.await(kCampaignLook_ns)) learn(news);
       if (interrupt_.noted() && !std::exchange(asked, true)) pool_.askToEnd();
     }
   }
@@ -153,7 +153,8 @@ class Run {
                   "The same command continues");
     if (!failures_.empty())
       throw Error(missing + " missing, " + std::to_string(failures_.size()) + " failed",
-                  plan_.options.file, "See to the reasons above; the same command tries them again");
+                  plan_.options.file,
+                  "See to the reasons above; the same command tries them again");
   }
 
   bool wasInterrupted() const { return interrupt_.noted(); }
@@ -166,7 +167,7 @@ class Run {
 
   void begin() {
     if (!busy_.empty() && pool_.isIdle() && busy_.size() == waiting_.size())
-      runtime::rest(std::chrono::nanoseconds(kLook_ns));  // others compute all that is missing
+      runtime::rest(std::chrono::nanoseconds(kCampaignLook_ns));  // others compute all that is missing
     while (mayBegin() && !pool_.isFull()) {
       const std::size_t n = waiting_.front();
       waiting_.pop_front();

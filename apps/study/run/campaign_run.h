@@ -42,7 +42,9 @@ struct PlannedCampaign {
   std::vector<std::string> keys;
 
   explicit PlannedCampaign(const CampaignOptions& options);
-  std::filesystem::path result(std::size_t session) const { return out / "results" / keys[session]; }
+  std::filesystem::path result(std::size_t session) const {
+    return out / "results" / keys[session];
+  }
   std::filesystem::path work(std::size_t session) const { return out / "work" / keys[session]; }
   /// Its result is there, with what is to be kept.
   bool isDone(std::size_t session) const;

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using study_analysis::CsvReader;
-using Fields = CsvReader::Fields;
+using Fields = std::vector<std::string>;
 
 constexpr int kUsualParts = 100;
 constexpr std::size_t kNamedAtMost = 10;
@@ -39,11 +39,15 @@ SessionTable tableOf(const fs::path& result) {
   const std::string text = readWhole(file).value_or("");
   SessionTable table;
   CsvReader reader(text, file.string());
-  if (!reader.next(table.header))
-    throw Error("is damaged", file.string(), "Remove its folder; the next run computes it again");
-  for (Fields row; reader.next(row);) {
-    row.resize(table.header.size());
-    table.rows.push_back(row);
+  CsvReader::Line line;
+  const auto damaged = [&file] {
+    return Error("is damaged", file.string(), "Remove its folder; the next run computes it again");
+  };
+  if (!reader.next(line)) throw damaged();
+  table.header = line.fields;
+  while (reader.next(line)) {
+    if (line.fields.size() != table.header.size()) throw damaged();
+    table.rows.push_back(line.fields);
   }
   return table;
 }
@@ -70,8 +74,8 @@ Fields spread(const Fields& header, const Fields& row, const Fields& columns) {
   if (header == columns) return row;
   Fields wide(columns.size());
   for (std::size_t i = 0; i < header.size(); ++i)
-    wide[static_cast<std::size_t>(
-        std::find(columns.begin(), columns.end(), header[i]) - columns.begin())] = row[i];
+    wide[static_cast<std::size_t>(std::find(columns.begin(), columns.end(), header[i]) -
+                                  columns.begin())] = row[i];
   return wide;
 }
 
@@ -165,8 +169,7 @@ void reportCampaign(const CampaignOptions& options) {
   std::printf("%zu done, %zu to compute, of these %zu in work now\n", done, missing.size(), runs);
   for (std::size_t i = 0; i < missing.size() && i < kNamedAtMost; ++i)
     std::printf("  %s\n", plan.nameOf(missing[i]).c_str());
-  if (missing.size() > kNamedAtMost)
-    std::printf("  and %zu more\n", missing.size() - kNamedAtMost);
+  if (missing.size() > kNamedAtMost) std::printf("  and %zu more\n", missing.size() - kNamedAtMost);
   if (others > 0)
     std::printf("%s of another program, campaign or asset: nobody needs them for this one\n",
                 counted(others, "result").c_str());
@@ -177,8 +180,8 @@ namespace {
 /// As a shell reads it as one word.
 std::string shellWord(const std::string& text) {
   const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) || std::string_view("_-./=:@%+,").find(static_cast<char>(c)) !=
-                                  std::string_view::npos;
+    return std::isalnum(c) ||
+           std::string_view("_-./=:@%+,").find(static_cast<char>(c)) != std::string_view::npos;
   });
   if (plain) return text;
   std::string word = "'";

@@ -74,17 +74,17 @@ std::optional<StudyCopy> readStudyCopy(const fs::path& file) {
 void writeStudyCopy(const StudyCopy& copy, const fs::path& file) {
   const record::Enrolment& e = copy.enrolment;
   nlohmann::json json{{"protocol_sha256", copy.protocol_sha256},
-            {"enrolment",
-             {{"study", e.study},
-              {"trainee", e.trainee},
-              {"group", e.group},
-              {"place", e.place},
-              {"condition", e.condition},
-              {"simulated", e.simulated},
-              {"enrolled_utc", e.enrolled_utc}}},
-            {"trials", nlohmann::json::array()},
-            {"answers", nlohmann::json::array()},
-            {"sent", copy.sent}};
+                      {"enrolment",
+                       {{"study", e.study},
+                        {"trainee", e.trainee},
+                        {"group", e.group},
+                        {"place", e.place},
+                        {"condition", e.condition},
+                        {"simulated", e.simulated},
+                        {"enrolled_utc", e.enrolled_utc}}},
+                      {"trials", nlohmann::json::array()},
+                      {"answers", nlohmann::json::array()},
+                      {"sent", copy.sent}};
   for (const study::DoneTrial& t : copy.trials)
     json["trials"].push_back({{"step", t.step},
                               {"session", t.session},
@@ -308,6 +308,17 @@ std::vector<std::pair<std::string, std::string>> excludedFrom(const study::Proto
   for (const study::Session& session : protocol.sessions)
     for (const study::Block& block : session.blocks) addExpertsOf(block, &excluded);
   return excluded;
+}
+
+void addSimulated(record::RecordStore& store, const std::string& id, const std::string& group,
+                  const std::string& now_utc) {
+  if (const auto there = store.trainee(id)) {
+    if (there->experience != kSimulatedExperience)
+      throw UsageError("is somebody in the records", "trainee " + id,
+                       "Give virtual trainees records of their own: --records cohort.sqlite");
+    return;
+  }
+  store.addTrainee({id, group, kSimulatedExperience, "right", now_utc, "", "", ""});
 }
 
 }  // namespace palpa::study

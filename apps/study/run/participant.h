@@ -60,6 +60,11 @@ class StudyParticipant {
 /// expert path of one of its tasks.
 std::vector<std::pair<std::string, std::string>> excludedFrom(const study::Protocol& protocol);
 
+/// A virtual trainee in the records, unless he is there. Throws UsageError where a person has that
+/// pseudonym.
+void addSimulated(record::RecordStore& store, const std::string& id, const std::string& group,
+                  const std::string& now_utc);
+
 /// What this station knows of a person who is deleted, so that studies can go on without the
 /// records.
 void removeStudyCopies(const std::string& trainee);

@@ -94,17 +94,6 @@ void buildWorlds(Shared& shared) {
     }
 }
 
-void addSubject(record::RecordStore& store, const std::string& id, const std::string& group,
-                const std::string& now) {
-  if (const auto there = store.trainee(id)) {
-    if (there->experience != kSimulatedExperience)
-      throw UsageError("is somebody in the records", "trainee " + id,
-                       "Give virtual trainees records of their own: --records cohort.sqlite");
-    return;
-  }
-  store.addTrainee({id, group, kSimulatedExperience, "right", now, "", "", ""});
-}
-
 /// In the order of their numbers, so that places and conditions follow from the seed.
 std::vector<Subject> enrolAll(const StudyOptions& o, const study::Protocol& protocol,
                               const study::Learners& learners) {
@@ -115,7 +104,7 @@ std::vector<Subject> enrolAll(const StudyOptions& o, const study::Protocol& prot
     const int count = o.subjects ? o.subjects : learners.groups.at(group.name).subjects;
     for (int i = 0; i < count; ++i) {
       const std::string id = idOf(static_cast<int>(subjects.size()) + 1), now = runtime::utcNow();
-      addSubject(store, id, group.name, now);
+      addSimulated(store, id, group.name, now);
       const record::Enrolment wanted{protocol.id, id, group.name, 0, "", true, now};
       const auto draw = [&](std::uint64_t seed, std::int64_t place) {
         return protocol.allocation
