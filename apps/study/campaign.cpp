@@ -145,7 +145,8 @@ CampaignSetting campaignSetting(const JsonFile& file, Engine engine, const fs::p
 void readSettings(const JsonFile& file, Campaign* campaign) {
   std::set<std::string> names;
   for (const JsonFile& entry : file.entries("settings")) {
-    campaign->settings.push_back(campaignSetting(entry, campaign->engine, campaign->file.parent_path()));
+    campaign->settings.push_back(
+        campaignSetting(entry, campaign->engine, campaign->file.parent_path()));
     if (!names.insert(campaign->settings.back().name).second)
       entry.refuse("name", "is another setting's, too");
   }

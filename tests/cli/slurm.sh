@@ -103,7 +103,8 @@ sed 's/"rate_Hz": [0-9]*/"rate_Hz": 1/' "$top/assets/stations/palpation_bench.js
   >"$work/station.json"
 cat >"$work/campaign.json" <<JSON
 {"version": 1, "id": "slurm", "title": "Comparisons", "tasks": ["$top/assets/tasks/squeeze.json"],
- "station": "station.json", "operators": ["expert", "novice"], "seeds": {"from": 1, "count": $seeds},
+ "station": "station.json", "operators": ["expert", "novice"],
+ "seeds": {"from": 1, "count": $seeds},
  "settings": [{"name": "touch"}, {"name": "no_touch", "force_feedback": false}]}
 JSON
 campaign() { "$palpa" campaign "$work/campaign.json" --keep table --quiet "$@"; }

@@ -53,15 +53,15 @@ TEST_F(Keys, ChangeWithEveryFileThatASessionNamesAndNoOther) {
   EXPECT_EQ(std::set<std::string>(before.begin(), before.end()).size(), 2u);
   EXPECT_EQ(before[0].size(), 64u);
   EXPECT_EQ(keys(), before);
-  for (const char* other : {"tasks/bone_pin.json", "materials/bone_pin.json", "operators/expert.json",
-                            "stations/search_bench.json"}) {
+  for (const char* other : {"tasks/bone_pin.json", "materials/bone_pin.json",
+                            "operators/expert.json", "stations/search_bench.json"}) {
     touch(other);
     EXPECT_EQ(keys(), before) << other;
   }
   std::vector<std::string> seen = before;
-  for (const char* named : {"tasks/paracentesis.json", "tasks/paracentesis_expert_path.json",
-                            "materials/needle.json", "stations/virtual_bench.json",
-                            "operators/novice.json", "patient.glb"}) {
+  for (const char* named :
+       {"tasks/paracentesis.json", "tasks/paracentesis_expert_path.json", "materials/needle.json",
+        "stations/virtual_bench.json", "operators/novice.json", "patient.glb"}) {
     touch(named);
     const std::vector<std::string> now = keys();
     EXPECT_EQ(others(now, seen), 2u) << named;
@@ -72,9 +72,9 @@ TEST_F(Keys, ChangeWithEveryFileThatASessionNamesAndNoOther) {
 TEST_F(Keys, ChangeWithEveryFieldOfASetting) {
   const json schema = json::parse(slurped(kAssets / "schemas/campaign.schema.json"));
   const json& fields = schema["properties"]["settings"]["items"]["properties"];
-  const json unusual{{"force_feedback", false}, {"augment", true},   {"assess", true},
-                     {"knows_patient", true},   {"guidance", true},  {"handedness", "left"},
-                     {"side", "left"},          {"mode", "all"},     {"presentation", "pilot"},
+  const json unusual{{"force_feedback", false}, {"augment", true},  {"assess", true},
+                     {"knows_patient", true},   {"guidance", true}, {"handedness", "left"},
+                     {"side", "left"},          {"mode", "all"},    {"presentation", "pilot"},
                      {"name", "another"},       {"about", "a word"}};
   const std::set<std::string> of_no_weight{"name", "about"}, of_others{"guidance", "mode"};
   std::vector<std::string> seen = keys();
@@ -141,22 +141,22 @@ class OwnAssets : public SmallCampaign {
 };
 
 TEST_F(OwnAssets, ThatDoNotCountAreNotRead) {
-  const std::pair<const char*, const char*> sessions[]{
-      {"squeeze", "palpation_bench"},
-      {"search", "search_bench"},
-      {"palpation_breast", "palpation_bench"},
-      {"bone_pin", "virtual_bench"}};
+  const std::pair<const char*, const char*> sessions[]{{"squeeze", "palpation_bench"},
+                                                       {"search", "search_bench"},
+                                                       {"palpation_breast", "palpation_bench"},
+                                                       {"bone_pin", "virtual_bench"}};
   for (const auto& [task, bench] : sessions) {
     json station = json::parse(slurped(kAssets / "stations" / (std::string(bench) + ".json")));
     station["camera"]["rate_Hz"] = 1;
     put("station.json", station);
-    const fs::path file = put("campaign.json", {{"version", 1},
-                                                {"id", task},
-                                                {"title", task},
-                                                {"tasks", {std::string("assets/tasks/") + task + ".json"}},
-                                                {"station", "station.json"},
-                                                {"operators", {"expert"}},
-                                                {"seeds", {{"from", 41}, {"count", 1}}}});
+    const fs::path file =
+        put("campaign.json", {{"version", 1},
+                              {"id", task},
+                              {"title", task},
+                              {"tasks", {std::string("assets/tasks/") + task + ".json"}},
+                              {"station", "station.json"},
+                              {"operators", {"expert"}},
+                              {"seeds", {{"from", 41}, {"count", 1}}}});
     const std::string out = task, bare = out + "-bare";
     ASSERT_EQ(Runner(options(file, out), here_ / (out + ".txt")).wait().failure, "") << task;
     EXPECT_GT(takeAwayWhatDoesNotCount(file), 30u) << task;

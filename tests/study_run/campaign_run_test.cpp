@@ -106,8 +106,9 @@ TEST_F(SmallCampaign, ThatLosesAProcessNamesTheSessionAndTriesItAgain) {
   ::kill(runner.workers().at(0), SIGSEGV);
   const Ran first = runner.wait();
   EXPECT_TRUE(says(first.failure, "1 of 4 sessions missing, 1 failed")) << first.failure;
-  EXPECT_TRUE(says(first.printed, "Failed: squeeze, patient reference, expert, setting touch, seed "
-                                  "1: its process was ended by signal SEGV"))
+  EXPECT_TRUE(says(first.printed,
+                   "Failed: squeeze, patient reference, expert, setting touch, seed "
+                   "1: its process was ended by signal SEGV"))
       << first.printed;
   EXPECT_EQ(linesIn(slurped(tableIn("out"))), 4u) << "the others' trials are there";
   const Ran second = ran(options(file, "out"), here_ / "second.txt");

@@ -34,8 +34,8 @@ class SmallCampaign : public testing::Test {
 
 /// What happened in a process of its own that ran one.
 struct Ran {
-  std::string printed;  ///< on both streams
-  std::string failure;  ///< what was thrown; empty: nothing
+  std::string printed;   ///< on both streams
+  std::string failure;   ///< what was thrown; empty: nothing
   int computed() const;  ///< as it printed; -1: it did not
 };
 

@@ -167,7 +167,8 @@ class Run {
 
   void begin() {
     if (!busy_.empty() && pool_.isIdle() && busy_.size() == waiting_.size())
-      runtime::rest(std::chrono::nanoseconds(kCampaignLook_ns));  // others compute all that is missing
+      runtime::rest(
+          std::chrono::nanoseconds(kCampaignLook_ns));  // others compute all that is missing
     while (mayBegin() && !pool_.isFull()) {
       const std::size_t n = waiting_.front();
       waiting_.pop_front();
