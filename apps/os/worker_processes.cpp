@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
+#include <string_view>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
@@ -37,8 +39,15 @@ void sendLine(int line, char kind, const std::string& text) {
   try {
     work([line](const std::string& text) { sendLine(line, kSaid, text); });
     sendLine(line, kWentThrough, "");
-  } catch (const std::exception& e) {
+  } catch (const Error& e) {
     sendLine(line, kFailed, e.what());
+  } catch (const std::bad_alloc&) {
+    sendLine(line, kFailed, "there is not enough memory for this");
+  } catch (const std::filesystem::filesystem_error& e) {
+    sendLine(line, kFailed,
+             e.path1().string() + ": cannot be used (" + fileTrouble(e.code().value()).why + ")");
+  } catch (const std::exception&) {
+    sendLine(line, kFailed, "something failed that was not foreseen");
   }
   std::fflush(stdout);
   ::_exit(0);

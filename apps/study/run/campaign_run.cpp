@@ -29,7 +29,9 @@ constexpr const char *kTable = "trials.csv", *kEvidence = "session.palpa", *kRep
 constexpr std::int64_t kCampaignLook_ns = 500 * runtime::kMillisecond;
 constexpr std::size_t kHopeless = 10,  ///< failures before the first success: the rest would, too
     kNamed = 10;                       ///< sessions that are named where many could be
-constexpr const char *kBusy = "another process computes it", *kLeft = "it was interrupted";
+/// What a process says whose session is not computed by it.
+constexpr const char *kBusy = "another process computes it", *kThere = "another one has",
+                     *kLeft = "it was interrupted";
 
 fs::path lockOf(const fs::path& work) { return work.string() + ".lock"; }
 
@@ -57,18 +59,20 @@ void holdOne(const PlannedCampaign& plan, std::size_t n, const os::Report& repor
   const fs::path work = plan.work(n), lock_file = lockOf(work);
   const auto lock = os::FileLock::exclusive(lock_file, os::FileLock::Missing::is_made);
   if (!lock) return report(kBusy);
-  if (!plan.isDone(n)) {
-    fs::remove_all(work);
-    if (const std::error_code problem = os::makeFolders(work))
-      failFile("cannot be made", work, problem);
-    os::sendOutputTo(work / kPrinted);
-    session::SessionOptions options = sessionOptions(plan.campaign, n, plan.keys[n]);
-    options.out = work.string();
-    options.report = plan.options.keeps == CampaignKeeps::reports;
-    if (session::holdSession(plan.campaign.engine, options).quit) return report(kLeft);
-    removeRest(work, plan.options.keeps);
-    putInPlace(work, plan.result(n));
+  if (plan.isDone(n)) {
+    fs::remove(lock_file);
+    return report(kThere);
   }
+  fs::remove_all(work);
+  if (const std::error_code problem = os::makeFolders(work))
+    failFile("cannot be made", work, problem);
+  os::sendOutputTo(work / kPrinted);
+  session::SessionOptions options = sessionOptions(plan.campaign, n, plan.keys[n]);
+  options.out = work.string();
+  options.report = plan.options.keeps == CampaignKeeps::reports;
+  if (session::holdSession(plan.campaign.engine, options).quit) return report(kLeft);
+  removeRest(work, plan.options.keeps);
+  putInPlace(work, plan.result(n));
   fs::remove(lock_file);
 }
 
@@ -76,7 +80,8 @@ void holdOne(const PlannedCampaign& plan, std::size_t n, const os::Report& repor
 void removeLeftovers(const fs::path& folder) {
   for (const fs::path& entry : entriesOf(folder)) {
     if (entry.extension() != ".lock") continue;
-    if (!os::FileLock::exclusive(entry, os::FileLock::Missing::fails)) continue;
+    const auto lock = os::FileLock::exclusive(entry, os::FileLock::Missing::fails);
+    if (!lock) continue;
     fs::remove_all(fs::path(entry).replace_extension());
     fs::remove_all(fs::path(entry).replace_extension(".less"));
     fs::remove(entry);
@@ -135,7 +140,6 @@ class Run {
     }
   }
 
-  /// In words, to standard output. Throws Error where something is missing.
   void sayHowItWent() const {
     std::printf("%s, %zu computed now\n", counted(of_, "session").c_str(), computed_);
     for (std::size_t i = 0; i < failures_.size() && i < kNamed; ++i)
@@ -146,6 +150,7 @@ class Run {
                   counted(failures_.size() - kNamed, "further session").c_str());
   }
 
+  /// Throws Error where something is missing.
   void needAll() const {
     const std::string missing = std::to_string(of_ - done_) + " of " + counted(of_, "session");
     if (interrupt_.noted())
@@ -167,8 +172,7 @@ class Run {
 
   void begin() {
     if (!busy_.empty() && pool_.isIdle() && busy_.size() == waiting_.size())
-      runtime::rest(
-          std::chrono::nanoseconds(kCampaignLook_ns));  // others compute all that is missing
+      runtime::rest(std::chrono::nanoseconds(kCampaignLook_ns));  // others compute all of it
     while (mayBegin() && !pool_.isFull()) {
       const std::size_t n = waiting_.front();
       waiting_.pop_front();
@@ -191,7 +195,7 @@ class Run {
         failures_.emplace_back(news.item, news.failure.empty() ? kLeft : news.failure);
     } else {
       ++done_;
-      ++computed_;
+      computed_ += said != kThere;
     }
   }
 

@@ -1,8 +1,8 @@
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
-#include <map>
-#include <optional>
 #include <set>
+#include <string_view>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
