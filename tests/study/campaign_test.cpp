@@ -28,7 +28,7 @@ json smallCampaign() {
           {"settings", {{{"name", "touch"}}, {{"name", "no_touch"}, {"force_feedback", false}}}}};
 }
 
-fs::path written(const json& campaign) {
+fs::path writtenCampaign(const json& campaign) {
   const fs::path file = test::freshFolder("study", "campaign") / "campaign.json";
   std::ofstream(file) << campaign.dump();
   return file;
@@ -37,7 +37,7 @@ fs::path written(const json& campaign) {
 /// What the program says against it; empty: nothing.
 std::string faultOf(const json& campaign) {
   try {
-    readCampaign(written(campaign));
+    readCampaign(writtenCampaign(campaign));
     return "";
   } catch (const UsageError& e) {
     return e.what();
@@ -51,7 +51,7 @@ std::string faultWith(const json& change) {
 }
 
 TEST(Campaign, HoldsEachCombinationOnceAndNoTwoOfThemShareATrialsSeed) {
-  const Campaign c = readCampaign(written(smallCampaign()));
+  const Campaign c = readCampaign(writtenCampaign(smallCampaign()));
   EXPECT_EQ(c.sessions(), 2u * 3u * 4u * 2u);
   EXPECT_EQ(sizeInWords(c),
             "3 patients x 2 operators x 2 settings x 4 seeds = 48 sessions of 5 trials each");
@@ -73,14 +73,14 @@ TEST(Campaign, HoldsEachCombinationOnceAndNoTwoOfThemShareATrialsSeed) {
 }
 
 TEST(Campaign, NamesItsPatientsAndReadsItsSettings) {
-  const Campaign c = readCampaign(written(smallCampaign()));
+  const Campaign c = readCampaign(writtenCampaign(smallCampaign()));
   EXPECT_EQ(c.patients[0].name, "reference");
   EXPECT_EQ(c.patients[2].name, "seed 2");
   EXPECT_TRUE(c.settings[0].force_feedback);
   EXPECT_FALSE(c.settings[1].force_feedback);
   json plain = smallCampaign();
   for (const char* field : {"patients", "settings", "trials"}) plain.erase(field);
-  const Campaign least = readCampaign(written(plain));
+  const Campaign least = readCampaign(writtenCampaign(plain));
   ASSERT_EQ(least.settings.size(), 1u);
   EXPECT_EQ(least.settings[0].name, "usual");
   ASSERT_EQ(least.patients.size(), 1u);
@@ -117,7 +117,7 @@ TEST(Campaign, RefusesWhatItCannotHold) {
 TEST(Campaign, OfOperatorsOfOnesOwnKnowsThemByTheirFiles) {
   json campaign = smallCampaign();
   campaign["operators"] = {(kAssets / "operators/novice.json").string(), "expert"};
-  const Campaign c = readCampaign(written(campaign));
+  const Campaign c = readCampaign(writtenCampaign(campaign));
   EXPECT_EQ(c.operators[0].name, "novice");
   EXPECT_EQ(c.operators[0].file, kAssets / "operators/novice.json");
   EXPECT_TRUE(c.operators[1].file.empty());
