@@ -24,7 +24,8 @@ TEST(Campaign, RunsOnceAndSaysWhatIsThere) {
   const std::string file = campaignIn(here, 1);
   const Outcome before = palpa({"campaign", file, "--status"}, here.path());
   EXPECT_EQ(before.exit_code, 0) << before.err;
-  EXPECT_TRUE(says(before.out, "Small: 1 session of 1 trial each\n0 done, 1 to compute")) << before.out;
+  EXPECT_TRUE(says(before.out, "Small: 1 session of 1 trial each\n0 done, 1 to compute"))
+      << before.out;
   const Outcome run = palpa({"campaign", file}, here.path());
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(says(run.out, "1 session, 1 computed now")) << run.out;

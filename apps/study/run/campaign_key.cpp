@@ -84,10 +84,16 @@ std::string settingText(const CampaignSetting& s) {
   return text + (s.presentation ? " " + presentation::jsonOf(*s.presentation).dump() : "") + "\n";
 }
 
-fs::path operatorFileOf(const Campaign& campaign, std::size_t session) {
-  const session::SessionOptions options = sessionOptions(campaign, session, "");
-  const bool needle = campaign.engine == training::Engine::needle;
-  return session::operatorFile(options, needle ? "" : training::nameOf(campaign.engine) + "_");
+std::string patientText(const CampaignPatient& patient, NamedFiles* files) {
+  return "patient" +
+         (patient.file.empty() ? " seed " + std::to_string(patient.seed)
+                               : files->text(patient.file)) +
+         "\n";
+}
+
+/// The name is that of the trainee, in the table and the evidence.
+std::string operatorText(const CampaignOperator& who, NamedFiles* files) {
+  return "operator " + who.name + (who.file.empty() ? " shipped" : files->text(who.file)) + "\n";
 }
 
 }  // namespace
@@ -99,14 +105,11 @@ std::vector<std::string> keysOf(const Campaign& campaign) {
   std::vector<std::string> keys;
   for (std::size_t n = 0; n < campaign.sessions(); ++n) {
     const CampaignSession s = sessionOf(campaign, n);
-    const CampaignPatient& patient = campaign.patients[s.patient];
-    const std::string drawn = " seed " + std::to_string(patient.seed);
-    keys.push_back(
-        sha256(shared + "task" + files.text(campaign.tasks[s.task]) + "\npatient" +
-               (patient.file.empty() ? drawn : files.text(patient.file)) + "\noperator " +
-               campaign.operators[s.who].name + files.text(operatorFileOf(campaign, n)) + "\n" +
-               settingText(campaign.settings[s.setting]) + "seed " + std::to_string(s.seed) +
-               "\ntrials " + std::to_string(campaign.trials) + "\n"));
+    keys.push_back(sha256(shared + "task" + files.text(campaign.tasks[s.task]) + "\n" +
+                          patientText(campaign.patients[s.patient], &files) +
+                          operatorText(campaign.operators[s.who], &files) +
+                          settingText(campaign.settings[s.setting]) + "seed " +
+                          std::to_string(s.seed) + " trials " + std::to_string(campaign.trials)));
   }
   return keys;
 }
