@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <deque>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -185,8 +186,10 @@ class Run {
   }
 
   void learn(const os::WorkerNews& news) {
+    if (!news.lines.empty()) said_[news.item] = news.lines.back();
     if (!news.ended) return;
-    const std::string said = news.lines.empty() ? "" : news.lines.back();
+    const std::string said = said_[news.item];
+    said_.erase(news.item);
     if (said == kBusy) {
       busy_.insert(news.item);
       waiting_.push_back(news.item);
@@ -203,7 +206,8 @@ class Run {
   os::WorkerPool pool_;
   const os::InterruptNote interrupt_;
   std::deque<std::size_t> waiting_;
-  std::set<std::size_t> busy_;  ///< of these: another runner computes them
+  std::set<std::size_t> busy_;               ///< of these: another runner computes them
+  std::map<std::size_t, std::string> said_;  ///< by those that run
   std::vector<std::pair<std::size_t, std::string>> failures_;
   std::size_t of_ = 0, done_ = 0, computed_ = 0;
 };
