@@ -61,7 +61,8 @@ bool errorsGoToTerminal();
 class FileLock {
  public:
   enum class Missing { fails, is_made };  ///< made: readable by this user alone
-  /// Never waits. Null where another holds it, or the file cannot be opened.
+  /// Never waits. Null where another holds it, or the file cannot be opened. Whoever holds it may
+  /// remove the file: a lock on a file that has lost its name is nobody's.
   static std::unique_ptr<FileLock> exclusive(const std::filesystem::path& file, Missing missing);
   ~FileLock();
   FileLock(const FileLock&) = delete;
