@@ -57,13 +57,13 @@ constexpr std::array<std::string_view, kFigures> kKept{"back_wall_punctures",
                                                        "translational_actions"};
 static_assert(std::is_sorted(kKept.begin(), kKept.end()));
 
+}  // namespace
+
 std::size_t keptNumber(std::string_view metric) {
   const auto found = std::lower_bound(kKept.begin(), kKept.end(), metric);
   return found != kKept.end() && *found == metric ? static_cast<std::size_t>(found - kKept.begin())
                                                   : kNoFigure;
 }
-
-}  // namespace
 
 std::size_t figureNumber(std::string_view metric) {
   const std::size_t number = keptNumber(metric);
@@ -76,11 +76,6 @@ Figures::Figures() { values_.fill(std::numeric_limits<double>::quiet_NaN()); }
 
 Figures::Figures(std::initializer_list<metrics::MetricValue> values) : Figures() {
   for (const metrics::MetricValue& m : values) set(m.name, m.value);
-}
-
-void Figures::set(std::string_view metric, double value) {
-  any_ = true;
-  if (const std::size_t number = keptNumber(metric); number != kNoFigure) values_[number] = value;
 }
 
 bool PracticeTrial::succeeded() const {

@@ -21,6 +21,8 @@ namespace palpa::progress {
 /// that it does not know.
 inline constexpr std::size_t kFigures = 34, kNoFigure = kFigures;
 std::size_t figureNumber(std::string_view metric);
+/// The same; `kNoFigure` for every metric that is not kept.
+std::size_t keptNumber(std::string_view metric);
 
 /// Those of one trial: numbers side by side, without their names, since a cohort has a hundred
 /// thousand trials.
@@ -28,8 +30,12 @@ class Figures {
  public:
   Figures();
   Figures(std::initializer_list<metrics::MetricValue> values);
-  void set(std::string_view metric, double value);  ///< nothing where the pages do not keep it
-  double operator[](std::size_t number) const {     ///< not a number where there is none
+  void set(std::string_view metric, double value) { set(keptNumber(metric), value); }
+  void set(std::size_t number, double value) {
+    any_ = true;
+    if (number < kFigures) values_[number] = value;
+  }
+  double operator[](std::size_t number) const {  ///< not a number where there is none
     return values_[number];
   }
   bool empty() const { return !any_; }  ///< none was set, kept or not

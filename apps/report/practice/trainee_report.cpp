@@ -8,9 +8,9 @@
 #include "apps/assess/progress/competence.h"
 #include "apps/assess/progress/errors.h"
 #include "apps/report/page/page_parts.h"
+#include "apps/report/practice/practice_charts.h"
 #include "apps/report/practice/practice_page.h"
 #include "apps/report/practice/progress_words.h"
-#include "apps/report/practice/trainee_sections.h"
 #include "apps/training/engine.h"
 
 namespace palpa::report {

@@ -1,4 +1,3 @@
-#include "apps/report/practice/trainee_sections.h"
 
 #include <algorithm>
 #include <optional>
