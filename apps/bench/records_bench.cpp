@@ -32,26 +32,27 @@ struct DrawnTrainee {
 };
 
 std::string numbered(const char* letter, int n) {
-  char text[16];
+  char text[32];
   std::snprintf(text, sizeof text, "%s%05d", letter, n);
   return text;
 }
 
 std::string uuidFrom(RandomStream& random) {
-  char text[40];
+  char text[64];
   const std::uint64_t a = random.bits(), b = random.bits();
   std::snprintf(text, sizeof text, "%08x-%04x-4%03x-8%03x-%012llx", static_cast<unsigned>(a >> 32),
                 static_cast<unsigned>(a >> 16 & 0xffff), static_cast<unsigned>(a & 0xfff),
-                static_cast<unsigned>(b >> 52), static_cast<unsigned long long>(b & 0xffffffffffff));
+                static_cast<unsigned>(b >> 52),
+                static_cast<unsigned long long>(b & 0xffffffffffff));
   return text;
 }
 
 /// Sessions are three days apart, all in years that exist.
 std::string dayOf(int session) {
   const int day = 3 * session;
-  char text[24];
-  std::snprintf(text, sizeof text, "%04d-%02d-%02dT09:00:00Z", 2027 + day / 336,
-                1 + day / 28 % 12, 1 + day % 28);
+  char text[64];
+  std::snprintf(text, sizeof text, "%04d-%02d-%02dT09:00:00Z", 2027 + day / 336, 1 + day / 28 % 12,
+                1 + day % 28);
   return text;
 }
 
@@ -76,7 +77,8 @@ assess::ParacentesisValues drawnValues(DrawnTrainee& who, int trial) {
 
 /// Every metric of a needle's trial, as many digits as a real one has. Those that pages judge by
 /// hang together; the others are any numbers of their kind.
-std::vector<record::Metric> drawnMetrics(const assess::ParacentesisValues& v, RandomStream& random) {
+std::vector<record::Metric> drawnMetrics(const assess::ParacentesisValues& v,
+                                         RandomStream& random) {
   const std::vector<record::Metric> known{
       {"success", v.success ? 1.0 : 0.0},
       {"time_s", 1e-3 * v.time_ms},
@@ -142,7 +144,8 @@ std::string drawnFacts(const std::string& trainee) {
 void addDrawn(record::RecordStore& store, int n) {
   DrawnTrainee who{numbered("B", n), 1, RandomStream(kDrawn, numbered("trainee", n))};
   who.skill = std::exp(0.3 * who.random.normal());
-  store.addTrainee({who.id, n % 2 ? "novice" : "experienced", "", "right", dayOf(0), dayOf(0), "", ""});
+  store.addTrainee(
+      {who.id, n % 2 ? "novice" : "experienced", "", "right", dayOf(0), dayOf(0), "", ""});
   for (int s = 0; s < kTrialsEach / kTrialsASession; ++s) {
     record::StoredSession session;
     session.uuid = uuidFrom(who.random);
@@ -205,7 +208,8 @@ void benchRecords(const RecordsBenchOptions& options) {
       options.records.empty() ? (folder.path() / "records.sqlite").string() : options.records;
   record::RecordStore store(records);
   if (!store.trainees().empty())
-    throw UsageError("holds records already", store.place(), "Give an empty database or a new file");
+    throw UsageError("holds records already", store.place(),
+                     "Give an empty database or a new file");
   std::vector<int> sizes = options.trials;
   std::sort(sizes.begin(), sizes.end());
   int trainees = 0;

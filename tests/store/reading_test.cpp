@@ -126,8 +126,8 @@ TEST_P(Reading, IsOfOneMomentWhileAnotherStationWrites) {
   EXPECT_EQ(reader.trials().size(), 1501u);
 }
 
-/// 32 MB of trials pass through a tenth of that, a thousand at a time through the half. (Memory
-/// that is in use, by the allocator's own count.)
+/// 32 MB of trials pass through a tenth of that, a thousand at a time through three quarters.
+/// (Memory that is in use, by the allocator's own count.)
 TEST_P(Reading, HoldsNoMoreThanItShows) {
   constexpr int kTrials = 2000;
   RecordStore store(url);
@@ -179,7 +179,7 @@ TEST_P(Reading, MetricsOfOlderTablesComeAlong) {
   EXPECT_TRUE(trials[1].trial.metrics.empty());
   EXPECT_EQ(trials[2].trial.metric("total"), 1e22);
   EXPECT_EQ(trials[3].trial.metric("Chosen"), 0);
-  EXPECT_TRUE(std::signbit(trials[3].trial.metric("total")));
+  EXPECT_EQ(trials[3].trial.metric("total"), 0);
   EXPECT_FALSE(store.connection().hasTable("metrics"));
   EXPECT_EQ(store.connection().query("SELECT 1 FROM metric_sets").size(), 2u);
 }
@@ -188,6 +188,7 @@ TEST(Metrics, ArePackedInTheOrderOfTheirNamesOrRefused) {
   const PackedMetrics all = packed({{"time_s", 20.5}, {"a", std::nan("")}, {"lung", 0}});
   EXPECT_EQ(all.names, "a,lung,time_s");
   EXPECT_EQ(all.values, ",0,20.5");
+  EXPECT_EQ(packed({{"a", -0.0}, {"b", 0.1 + 0.2}}).values, "-0,0.30000000000000004");
   EXPECT_EQ(packed({{"lung", 1}, {"time_s", 2}, {"a", 3}}).set, all.set);
   EXPECT_TRUE(packed({}).set.empty());
   EXPECT_THROW(packed({{"a", 1}, {"a", 2}}), Error);
@@ -200,7 +201,7 @@ TEST(Metrics, ThatDoNotFitTheirNamesAreDamage) {
   RecordStore store((folder / "records.sqlite").string());
   store.addTrainee(novice("A"));
   store.addTrial(sessionOf("A", "u1"), trialOf(1, 5));
-  for (const char* damaged : {"", ",", ",1,2", ",one", ",1x"}) {
+  for (const char* damaged : {"", "1", ",1,2", ",one", ",1x"}) {
     store.connection().query("UPDATE trials SET metric_values=$1", {std::string(damaged)});
     EXPECT_THROW(store.trials(), Error) << damaged;
   }

@@ -183,14 +183,16 @@ int RecordStore::addTrials(const StoredSession& session, const std::vector<Store
   SqlTransaction transaction(*connection_);
   requireSession(session);
   int added = 0;
-  for (const StoredTrial& trial : trials) added += insertTrial(session.uuid, trial) ? 1 : 0;
+  std::string kept;  // the set of metrics of the trial before
+  for (const StoredTrial& trial : trials) added += insertTrial(session.uuid, trial, kept) ? 1 : 0;
   transaction.commit();
   return added;
 }
 
-bool RecordStore::insertTrial(const std::string& session, const StoredTrial& t) {
+bool RecordStore::insertTrial(const std::string& session, const StoredTrial& t, std::string& kept) {
   const PackedMetrics metrics = packed(t.metrics);
-  keepSet(*connection_, metrics);
+  if (metrics.set != kept) keepSet(*connection_, metrics);
+  kept = metrics.set;
   const SqlRows added = connection_->query(
       "INSERT INTO trials(" + columnsOf("trials") +
           ") VALUES($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13) ON CONFLICT(session,number) DO "

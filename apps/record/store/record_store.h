@@ -155,7 +155,7 @@ class RecordStore {
       const StoredSession& session);  ///< of this trainee, made where it is not there
   void insertSession(const StoredSession& session);
   std::vector<StoredSession> sessionsOf(const std::string& trainee);
-  bool insertTrial(const std::string& session, const StoredTrial& trial);
+  bool insertTrial(const std::string& session, const StoredTrial& trial, std::string& kept_set);
   void requireNotDeleted(const StoredSession& session);
   std::unique_ptr<SqlConnection> connection_;
   Deletions deletions_;
