@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace palpa::bench {
 
@@ -60,6 +62,16 @@ struct MaterialBenchOptions {
 /// How true haptic augmented reality is on simulated phantoms, whose forces come from finite
 /// elements: one JSON object a line on standard output. Throws Error.
 void benchMaterial(const MaterialBenchOptions& options);
+
+struct RecordsBenchOptions {
+  std::string records;                             ///< an empty database; empty: a file that passes
+  std::vector<int> trials{1000, 10'000, 100'000};  ///< in hundreds: that of a trainee
+};
+
+/// Time and peak memory of a cohort's page and of an export over so many drawn (simulated) trials,
+/// each in a process of its own. One JSON object a line. What was drawn stays in a database that
+/// was given. Throws Error; UsageError for one that holds records.
+void benchRecords(const RecordsBenchOptions& options);
 
 struct RenderBenchOptions {
   int width = 1280, height = 720;

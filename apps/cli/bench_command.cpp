@@ -70,6 +70,25 @@ void addMaterial(CLI::App& bench) {
   material->callback([options] { bench::benchMaterial(*options); });
 }
 
+void addRecordsBench(CLI::App& bench) {
+  CLI::App* records = bench.add_subcommand(
+      "records", "Time and memory of a cohort's page and of an export (simulated trials)");
+  records->footer(
+      "Example:\n  palpa bench records > records.jsonl\n  palpa bench records --trials 1000\n  "
+      "palpa bench records --records postgresql://palpa@localhost/bench\n      an empty database, "
+      "in which the simulated trials stay");
+  const auto options = std::make_shared<bench::RecordsBenchOptions>();
+  records->add_option("--records", options->records,
+                      "An empty database or a new file; default: a file that passes");
+  records
+      ->add_option("--trials", options->trials,
+                   "How many, in hundreds; several one after the other, the records growing "
+                   "(default 1000,10000,100000)")
+      ->delimiter(',')
+      ->check(inRange(100, 1'000'000));
+  records->callback([options] { bench::benchRecords(*options); });
+}
+
 void addRenderBench(CLI::App& bench) {
   CLI::App* render = bench.add_subcommand(
       "render",
@@ -139,6 +158,7 @@ void addBench(CLI::App& program) {
   addHaptics(*bench);
   addLoop(*bench);
   addMaterial(*bench);
+  addRecordsBench(*bench);
   addRenderBench(*bench);
   addStop(*bench);
   addTracking(*bench);

@@ -113,6 +113,20 @@ Companion startWithLine(const std::vector<std::string>& arguments) {
   }
 }
 
+Spent runToEnd(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
+  const ProcessId process = start(arguments, log, false);
+  int status = 0;
+  rusage used{};
+  while (::wait4(process.pid, &status, 0, &used) < 0)
+    if (errno != EINTR) failFile("cannot be waited for", "palpa " + arguments.front(), errno);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+          seconds(used.ru_utime) + seconds(used.ru_stime),
+          1.024e-3 * static_cast<double>(used.ru_maxrss)};
+}
+
 bool isStopped(const ProcessId& process) {
   const ProcessState state = stateOf(process.pid);
   return state.letter == 'T' && state.began == process.began;

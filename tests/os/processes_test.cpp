@@ -160,6 +160,15 @@ TEST(Processes, TheLineToACompanionEndsWithIt) {
   closeSocket(lister.line);
 }
 
+TEST(Processes, WhatOneTookIsKnownAtItsEnd) {
+  const test::ScratchFolder folder("spent");
+  const Spent spent = runToEnd({"--gtest_list_tests"}, folder.path() / "log");
+  EXPECT_EQ(spent.exit_code, 0);
+  EXPECT_GT(spent.peak_MB, 0.5);
+  EXPECT_LT(spent.peak_MB, 10'000);
+  EXPECT_GE(spent.processor_s, 0);
+}
+
 TEST(Processes, KnowTheirProgram) {
   EXPECT_EQ(thisProcess().pid, processNumber());
   EXPECT_TRUE(runs(thisProcess()));
