@@ -112,6 +112,18 @@ inline Mat3 toTexel(const GrayTexture& texture) {
   return to_texel;
 }
 
+/// Where the rays (x, y, 1) of a row meet a plane, H as `RayToPlane::H` then `toTexel`: `column`
+/// and `row` in 1/32 texels, to the nearest; behind the camera 0. What the border repeats is cut at
+/// -100 and 20,000 texels. No branch, and nothing that might be the same memory, so that it runs on
+/// vectors.
+void castRow(const Eigen::Matrix3f& H, const float* __restrict x, const float* __restrict y,
+             int count, std::int32_t* __restrict column, std::int32_t* __restrict row);
+
+/// Between the four texels round each of these places, as cv::remap does it with INTER_LINEAR and
+/// BORDER_REPLICATE, to the bit; but without two pictures of places, which cost more than the rest.
+void readRow(const cv::Mat& gray, const std::int32_t* column, const std::int32_t* row, int count,
+             unsigned char* pixel);
+
 inline constexpr double kPaper = 222;  ///< gray level of white paper under even light
 
 /// A table with mild structure and the printed board in its middle, seen from above: 8-bit gray, +x
