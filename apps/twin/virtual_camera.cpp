@@ -78,17 +78,20 @@ VirtualCamera::VirtualCamera(const CameraModel& truth, const ar::TagGridSpec& bo
                               settings.noise_sigma * kNoiseUnit, kBank);
   const std::uint64_t table = picture::randomBits(seed, kTableStream);
   if (scene.ground == VirtualScene::Ground::kTableWithBoard)
-    textures_ = picture::textureSeries(
-        board.tag_size, [&](double texel) { return picture::drawTable(board, texel, table); });
+    textures_ = picture::TextureSeries(board.tag_size, [board, table](double texel) {
+      return picture::drawTable(board, texel, table);
+    });
   else if (scene.ground == VirtualScene::Ground::kBareTable)
-    textures_ = {{picture::drawBareTable(board, kBareTexel, table), kBareTexel}};
+    textures_ = picture::TextureSeries::ofOne(kBareTexel, [board, table](double texel) {
+      return picture::drawBareTable(board, texel, table);
+    });
   else
     wall_ = picture::drawWall(ray_x_, ray_y_, kWallDepth, picture::randomBits(seed, kWallStream));
   if (!scene.plates.empty()) blocks_ = picture::rayBlocks(ray_x_, ray_y_);
   for (const ar::TagGridSpec& plate : scene.plates) {
     ar::validate(plate, "plate of the virtual camera");
-    const auto draw = [&](double texel) { return picture::drawSheet(plate, texel); };
-    plates_.push_back({ar::sheetSize(plate), picture::textureSeries(plate.tag_size, draw)});
+    const auto draw = [plate](double texel) { return picture::drawSheet(plate, texel); };
+    plates_.push_back({ar::sheetSize(plate), picture::TextureSeries(plate.tag_size, draw)});
   }
 }
 
@@ -111,8 +114,7 @@ cv::Mat VirtualCamera::background(const Pose& X_CW) const {
   if (!wall_.empty()) return wall_.clone();
   const picture::RayToPlane table = picture::rayToPlane(X_CW);
   const Mat3 H = table.height > 0 ? table.H : Mat3(Mat3::Zero());
-  return lookUp(picture::nearestTexture(textures_, X_CW, truth_.fx), H,
-                {0, 0, ray_x_.cols, ray_x_.rows});
+  return lookUp(textures_.nearest(X_CW, truth_.fx), H, {0, 0, ray_x_.cols, ray_x_.rows});
 }
 
 /// Light, then noise: each row of each frame reads the bank from its own place, one of two signs.

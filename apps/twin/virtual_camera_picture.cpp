@@ -127,6 +127,38 @@ cv::Mat drawWall(const cv::Mat& ray_x, const cv::Mat& ray_y, double depth, std::
   return wall;
 }
 
+TextureSeries::TextureSeries(double tag_size, const Draw& draw) : draw_(draw) {
+  for (int i = 0; i < kTextures; ++i) {
+    const double texel = kFinestTexel * std::pow(2.0, i / 2.0);
+    if (tag_size / texel < 8) break;
+    add(texel);
+  }
+}
+
+TextureSeries TextureSeries::ofOne(double texel, const Draw& draw) {
+  TextureSeries series;
+  series.draw_ = draw;
+  series.add(texel);
+  return series;
+}
+
+void TextureSeries::add(double texel) {
+  levels_.push_back(std::make_shared<Level>());
+  levels_.back()->texture.texel = texel;
+}
+
+const GrayTexture& TextureSeries::nearest(const Pose& X_CP, double focal_length_px) const {
+  const double distance = std::max(X_CP.translation().norm(), 1e-3);
+  const double wanted = distance / focal_length_px / kTexelsPerPixel;
+  const auto off = [&](const std::shared_ptr<Level>& level) {
+    return std::abs(std::log(level->texture.texel / wanted));
+  };
+  Level& level = **std::min_element(levels_.begin(), levels_.end(),
+                                    [&](const auto& a, const auto& b) { return off(a) < off(b); });
+  std::call_once(level.drawn, [&] { level.texture.gray = draw_(level.texture.texel); });
+  return level.texture;
+}
+
 namespace {
 
 /// In 1/32 texels, to the nearest, even where two are as near. Texels that the border repeats need

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -80,29 +81,28 @@ inline constexpr double kFinestTexel = 0.00025;  // metres: a pixel at 0.15 m, f
 inline constexpr int kTextures = 10;  // sqrt(2) apart: the coarsest is 5.7 mm, a pixel at 3.4 m
 inline constexpr double kTexelsPerPixel = 1.25;  // averaging plus interpolation then match a pixel
 
-/// `draw(texel)` gives the area-averaged picture; fine to coarse, at least one, until a cell of a
-/// tag is less than a texel: no tag left to see.
-template <typename Draw>
-std::vector<GrayTexture> textureSeries(double tag_size, const Draw& draw) {
-  std::vector<GrayTexture> series;
-  for (int i = 0; i < kTextures; ++i) {
-    const double texel = kFinestTexel * std::pow(2.0, i / 2.0);
-    if (tag_size / texel < 8) break;
-    series.push_back({draw(texel), texel});
-  }
-  return series;
-}
+/// Area-averaged pictures of one thing, fine to coarse, at least one, until a cell of a tag is less
+/// than a texel: no tag left to see. Each is drawn when it is first looked at, because a session
+/// needs one or two of ten, and the finest cost most. Any thread.
+class TextureSeries {
+ public:
+  using Draw = std::function<cv::Mat(double texel)>;
+  TextureSeries() = default;
+  TextureSeries(double tag_size, const Draw& draw);
+  static TextureSeries ofOne(double texel, const Draw& draw);
 
-/// The one whose texels are nearest to a pixel's footprint at P's origin.
-inline const GrayTexture& nearestTexture(const std::vector<GrayTexture>& series, const Pose& X_CP,
-                                         double focal_length_px) {
-  const double distance = std::max(X_CP.translation().norm(), 1e-3);
-  const double wanted = distance / focal_length_px / kTexelsPerPixel;
-  const auto worse = [&](const GrayTexture& a, const GrayTexture& b) {
-    return std::abs(std::log(a.texel / wanted)) < std::abs(std::log(b.texel / wanted));
+  /// The one whose texels are nearest to a pixel's footprint at P's origin.
+  const GrayTexture& nearest(const Pose& X_CP, double focal_length_px) const;
+
+ private:
+  struct Level {
+    std::once_flag drawn;
+    GrayTexture texture;  ///< without its picture until it is drawn
   };
-  return *std::min_element(series.begin(), series.end(), worse);
-}
+  void add(double texel);
+  Draw draw_;
+  std::vector<std::shared_ptr<Level>> levels_;
+};
 
 /// Metres on the plane to texels.
 inline Mat3 toTexel(const GrayTexture& texture) {
