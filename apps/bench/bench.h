@@ -82,6 +82,18 @@ struct RenderBenchOptions {
 /// surfaces beside depth peeling. One JSON object a line. Throws Error where nothing can be drawn.
 void benchRender(const RenderBenchOptions& options);
 
+struct SessionBenchOptions {
+  int trials = 4;
+  std::uint64_t seed = 1;
+  bool views = false;  ///< the scene is drawn where a trial is to be seen
+};
+
+/// What a paracentesis session of the simulated expert costs in virtual time, in the processor's
+/// time of all its threads: seconds until its first tick with the patient built and with the
+/// patient kept, how many times as fast as real time it runs from there, and which share of that
+/// each stage takes. One JSON object a line. Throws Error.
+void benchSession(const SessionBenchOptions& options);
+
 struct StopBenchOptions {
   int presses = 200;  ///< from each source, with each part hung
 };

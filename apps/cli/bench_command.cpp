@@ -105,6 +105,20 @@ void addRenderBench(CLI::App& bench) {
   render->callback([options] { bench::benchRender(*options); });
 }
 
+void addSession(CLI::App& bench) {
+  CLI::App* session = bench.add_subcommand(
+      "session", "How many times real time a simulated session runs, how soon it starts, and why");
+  session->footer(
+      "Example:\n  palpa bench session > session.jsonl\n  palpa bench session --trials 10");
+  const auto options = std::make_shared<bench::SessionBenchOptions>();
+  session->add_option("--trials", options->trials, "Trials of the session (default 4)")
+      ->check(inRange(1, 1000));
+  session->add_option("--seed", options->seed, "Seed of the first trial (default 1)")
+      ->check(atLeastZero());
+  session->add_flag("--views", options->views, "With pictures of the scene");
+  session->callback([options] { bench::benchSession(*options); });
+}
+
 void addStop(CLI::App& bench) {
   CLI::App* stop = bench.add_subcommand(
       "stop",
@@ -160,6 +174,7 @@ void addBench(CLI::App& program) {
   addMaterial(*bench);
   addRecordsBench(*bench);
   addRenderBench(*bench);
+  addSession(*bench);
   addStop(*bench);
   addTracking(*bench);
 }

@@ -117,6 +117,10 @@ fs::path stateFolder(const std::string& advice) {
   return folderOf("XDG_STATE_HOME", ".local/state", advice);
 }
 
+fs::path cacheFolder(const std::string& advice) {
+  return folderOf("XDG_CACHE_HOME", ".cache", advice);
+}
+
 std::string programStamp() {
   std::error_code none;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);

@@ -49,6 +49,8 @@ class TemporaryFolder {
 std::filesystem::path dataFolder(const std::string& advice);
 /// For what a program remembers between its runs: $XDG_STATE_HOME, else ~/.local/state.
 std::filesystem::path stateFolder(const std::string& advice);
+/// For what it can make again: $XDG_CACHE_HOME, else ~/.cache.
+std::filesystem::path cacheFolder(const std::string& advice);
 
 /// Tells builds of a program apart: where the running one lies, its size, when it was last written.
 std::string programStamp();
