@@ -25,7 +25,7 @@
 #include "apps/os/file_access.h"
 #include "apps/session/output_folder.h"
 #include "apps/station/assets.h"
-#include "apps/twin/picture_study.h"
+#include "apps/twin/needle_plan.h"
 
 namespace palpa::session {
 namespace {

@@ -1,8 +1,8 @@
-#include "apps/twin/picture_study.h"
-
 #include <algorithm>
 #include <limits>
 #include <vector>
+
+#include "apps/twin/needle_plan.h"
 
 namespace palpa::twin {
 namespace {
