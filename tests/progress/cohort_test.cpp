@@ -127,5 +127,20 @@ TEST_F(CohortFigures, TheGroupsCurveByItsDefinition) {
   }
 }
 
+TEST_F(CohortFigures, SeveralCurvesAtOnceAreThoseOfEach) {
+  const std::vector<std::string> metrics{"time_s", "closest_pleura_mm", "total"};
+  const std::vector<GroupCurve> together = groupCurves(group_, metrics);
+  ASSERT_EQ(together.size(), metrics.size());
+  for (std::size_t m = 0; m < metrics.size(); ++m) {
+    const GroupCurve alone = groupCurve(group_, metrics[m]);
+    ASSERT_EQ(together[m].mean.size(), alone.mean.size());
+    EXPECT_EQ(together[m].curves.size(), alone.curves.size());
+    for (std::size_t n = 0; n < alone.mean.size(); ++n) {
+      EXPECT_EQ(together[m].mean[n].mean, alone.mean[n].mean);
+      EXPECT_EQ(together[m].mean[n].interval, alone.mean[n].interval);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpa::progress

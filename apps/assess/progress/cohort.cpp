@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "anatomy/base/error.h"
 #include "apps/assess/progress/competence.h"
@@ -124,24 +125,48 @@ std::vector<TraineeFigure> traineeFigures(const Series& group, const std::string
   return figures;
 }
 
-GroupCurve groupCurve(const Series& group, const std::string& metric) {
-  GroupCurve curve;
-  std::size_t longest = 0;
-  for (const PracticeView& own : byTrainee(group)) {
-    curve.trainees.push_back(own.trainee());
-    curve.curves.push_back(own.values(metric));
-    longest = std::max(longest, own.trials.size());
-  }
+namespace {
+
+/// The values at trial 1, 2, ..., as long as enough trainees have one.
+statistics::Samples valuesAtTrials(const std::vector<std::vector<double>>& curves) {
   statistics::Samples at_trial;
-  for (std::size_t n = 0; n < longest; ++n) {
+  for (std::size_t n = 0;; ++n) {
     std::vector<double> values;
-    for (const std::vector<double>& own : curve.curves)
+    for (const std::vector<double>& own : curves)
       if (n < own.size() && std::isfinite(own[n])) values.push_back(own[n]);
-    if (values.size() < kFewestForInterval || 2 * values.size() < curve.curves.size()) break;
+    if (values.size() < kFewestForInterval || 2 * values.size() < curves.size()) return at_trial;
     at_trial.push_back(std::move(values));
   }
-  curve.mean = groupMeans(at_trial);
-  return curve;
+}
+
+}  // namespace
+
+GroupCurve groupCurve(const Series& group, const std::string& metric) {
+  return groupCurves(group, {metric}).front();
+}
+
+std::vector<GroupCurve> groupCurves(const Series& group, const std::vector<std::string>& metrics) {
+  std::vector<GroupCurve> all;
+  std::vector<std::size_t> lengths;
+  statistics::Samples together;
+  for (const std::string& metric : metrics) {
+    GroupCurve& curve = all.emplace_back();
+    for (const PracticeView& own : byTrainee(group)) {
+      curve.trainees.push_back(own.trainee());
+      curve.curves.push_back(own.values(metric));
+    }
+    statistics::Samples at_trial = valuesAtTrials(curve.curves);
+    lengths.push_back(at_trial.size());
+    std::move(at_trial.begin(), at_trial.end(), std::back_inserter(together));
+  }
+  const std::vector<GroupMean> means = groupMeans(together);
+  auto next = means.begin();
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const auto end = next + static_cast<std::ptrdiff_t>(lengths[m]);
+    all[m].mean.assign(next, end);
+    next = end;
+  }
+  return all;
 }
 
 std::vector<Attention> whoNeedsAttention(const Series& group, const statistics::CusumRates& rates) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "anatomy/base/error.h"
@@ -25,7 +26,9 @@ void require(const Samples& samples, const BootstrapSettings& settings) {
 }
 
 std::size_t drawnFrom(std::size_t size, RandomStream& random) {
-  return static_cast<std::size_t>(random.openUniform() * static_cast<double>(size));
+  // by way of a signed number, to which the processor converts at once
+  return static_cast<std::size_t>(
+      static_cast<std::int64_t>(random.openUniform() * static_cast<double>(size)));
 }
 
 void draw(const Samples& samples, RandomStream& random, Samples& drawn) {
@@ -103,7 +106,7 @@ BootstrapInterval bootstrap(const Samples& samples,
 namespace {
 
 /// So many samples are drawn together that their sums stay in the processor's registers.
-using Lanes = std::array<double, 16>;
+constexpr std::size_t kMostTogether = 16, kFewTogether = 4;
 
 /// A mean's jackknife value without v differs from the others' mean by (v - mean) / (n - 1).
 double accelerationOfMean(const std::vector<double>& values, double mean) {
@@ -114,10 +117,12 @@ double accelerationOfMean(const std::vector<double>& values, double mean) {
   return accelerationBy(influences);
 }
 
-/// Means of all draws of up to 16 samples of one size, sample by sample. Their values lie side by
-/// side, so that one look-up serves all; each sum has the order that it has alone.
+/// Means of all draws of up to `Width` samples of one size, sample by sample. Their values lie side
+/// by side, so that one look-up serves all; each sum has the order that it has alone.
+template <std::size_t Width>
 Samples drawnMeans(const std::vector<const std::vector<double>*>& samples,
                    const BootstrapSettings& settings) {
+  using Lanes = std::array<double, Width>;
   const std::size_t size = samples[0]->size();
   std::vector<Lanes> beside(size, Lanes{});
   for (std::size_t s = 0; s < samples.size(); ++s)
@@ -129,7 +134,7 @@ Samples drawnMeans(const std::vector<const std::vector<double>*>& samples,
     Lanes sums{};
     for (std::size_t i = 0; i < size; ++i) {
       const Lanes& row = beside[drawnFrom(size, random)];
-      for (std::size_t s = 0; s < sums.size(); ++s) sums[s] += row[s];
+      for (std::size_t s = 0; s < Width; ++s) sums[s] += row[s];
     }
     for (std::size_t s = 0; s < samples.size(); ++s)
       means[s][d] = sums[s] / static_cast<double>(size);
@@ -140,7 +145,8 @@ Samples drawnMeans(const std::vector<const std::vector<double>*>& samples,
 /// Of up to 16 samples of one size.
 std::vector<BootstrapInterval> intervalsOf(const std::vector<const std::vector<double>*>& samples,
                                            const BootstrapSettings& settings) {
-  const Samples means = drawnMeans(samples, settings);
+  const Samples means = samples.size() > kFewTogether ? drawnMeans<kMostTogether>(samples, settings)
+                                                      : drawnMeans<kFewTogether>(samples, settings);
   std::vector<BootstrapInterval> intervals;
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const double mean = meanOf(*samples[s]);
@@ -160,9 +166,9 @@ std::vector<BootstrapInterval> bootstrapMeans(const Samples& samples,
   for (std::size_t s = 0; s < samples.size(); ++s) by_size[samples[s].size()].push_back(s);
   std::vector<BootstrapInterval> all(samples.size());
   for (const auto& [size, places] : by_size)
-    for (std::size_t from = 0; from < places.size(); from += Lanes().size()) {
+    for (std::size_t from = 0; from < places.size(); from += kMostTogether) {
       std::vector<const std::vector<double>*> together;
-      for (std::size_t i = from; i < std::min(places.size(), from + Lanes().size()); ++i)
+      for (std::size_t i = from; i < std::min(places.size(), from + kMostTogether); ++i)
         together.push_back(&samples[places[i]]);
       const std::vector<BootstrapInterval> theirs = intervalsOf(together, settings);
       for (std::size_t i = 0; i < theirs.size(); ++i) all[places[from + i]] = theirs[i];

@@ -152,7 +152,8 @@ void writeGroup(Html& html, const progress::Series& group, const statistics::Cus
   html.element("h3", "Trainee by trainee");
   for (const std::string& metric : shown.distributions) writeTraineeFigures(html, group, metric);
   html.element("h3", "Learning");
-  for (const std::string& metric : shown.curves) writeGroupCurve(html, group, metric);
+  const std::vector<progress::GroupCurve> curves = progress::groupCurves(group, shown.curves);
+  for (std::size_t i = 0; i < curves.size(); ++i) writeGroupCurve(html, curves[i], shown.curves[i]);
   writeCompetences(html, group, rates);
 }
 

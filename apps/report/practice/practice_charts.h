@@ -33,7 +33,7 @@ void writeCommonErrors(Html& html, const std::vector<progress::CommonError>& err
 void writeTraineeFigures(Html& html, const progress::Series& group, const std::string& metric);
 
 /// Every trainee's trials as a thin line, the group's mean with its interval over them.
-void writeGroupCurve(Html& html, const progress::Series& group, const std::string& metric);
+void writeGroupCurve(Html& html, const progress::GroupCurve& curve, const std::string& metric);
 
 /// What an educator reads in a minute: how much, what got better, what costs most, nearest misses,
 /// what recurs, what to practise next.
