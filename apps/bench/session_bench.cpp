@@ -52,7 +52,7 @@ std::map<std::string, double> sharesOf(const SessionCost& cost) {
   }
   shares["drawing"] = static_cast<double>(cost.drawing_ns) / all;
   shares["tracking"] = static_cast<double>(cost.run_ns - cost.thread_ns - cost.drawing_ns) / all;
-  shares["executive"] = static_cast<double>(cost.thread_ns - steps_ns) / all;
+  shares["rest"] = static_cast<double>(cost.thread_ns - steps_ns) / all;
   return shares;
 }
 

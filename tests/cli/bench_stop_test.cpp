@@ -53,7 +53,7 @@ TEST(BenchSession, SaysHowSoonAndHowFastAndWhatEveryStageTakes) {
   EXPECT_EQ(metrics, expected);
   EXPECT_NEAR(shares, 1, 1e-9);
   for (const char* stage : {"haptic", "bench", "geometry", "camera", "task", "scene", "recorder",
-                            "drawing", "tracking", "executive"})
+                            "drawing", "tracking", "rest"})
     EXPECT_EQ(stages.count(stage), 1u) << stage;
 }
 
