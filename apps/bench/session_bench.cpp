@@ -51,9 +51,8 @@ std::map<std::string, double> sharesOf(const SessionCost& cost) {
     steps_ns += ns;
   }
   shares["drawing"] = static_cast<double>(cost.drawing_ns) / all;
-  shares["tracking"] =
-      static_cast<double>(cost.run_ns - cost.thread_ns - cost.drawing_ns) / all;
-  shares["executive"] = static_cast<double>(cost.thread_ns - steps_ns) / all;
+  shares["tracking"] = static_cast<double>(cost.run_ns - cost.thread_ns - cost.drawing_ns) / all;
+  shares["rest"] = static_cast<double>(cost.thread_ns - steps_ns) / all;
   return shares;
 }
 
@@ -61,8 +60,7 @@ std::map<std::string, double> sharesOf(const SessionCost& cost) {
 
 void benchSession(const SessionBenchOptions& options) {
   const std::int64_t loading_ns = os::processorTime_ns();
-  nlohmann::json params{
-      {"tracking", "images"}, {"views", options.views}, {"seed", options.seed}};
+  nlohmann::json params{{"tracking", "images"}, {"views", options.views}, {"seed", options.seed}};
   const auto started = [&](bool cached, const SessionCost& cost) {
     params["cached"] = cached;
     print("start_seconds", static_cast<double>(cost.started_ns) / kSecond, "s", params);
