@@ -32,8 +32,8 @@ struct CampaignOptions {
 };
 
 /// A campaign and where its results are: out/results/<key>, a folder a session, which takes its
-/// name when it is whole; out/work/<key> before, beside <key>.lock, which whoever computes it
-/// holds. Two that run beside each other, also on two computers, compute nothing twice.
+/// name when it is whole; before, it stands in the folder `work` beside <key>.lock, which whoever
+/// computes it holds. Two that run beside each other, also on two computers, compute nothing twice.
 struct PlannedCampaign {
   Campaign campaign;
   CampaignOptions options;
