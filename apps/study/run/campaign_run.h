@@ -27,7 +27,7 @@ struct CampaignOptions {
   int jobs = 0;         ///< processes at a time; 0: one a processor
   int part = 0;         ///< of so many parts, from 0 or from 1: the last is the 0th, too
   int parts = 1;
-  CampaignKeeps keeps = CampaignKeeps::evidence;
+  CampaignKeeps keeps = CampaignKeeps::table;  ///< records need the evidence
   bool quiet = false;
 };
 
