@@ -83,7 +83,8 @@ void addActions(CLI::App& command, Actions& actions) {
       if (one != other) one->excludes(other);
 }
 
-void addRunning(CLI::App& command, CampaignOptions& o) {
+/// What is computed, and where; --keep.
+const CLI::Option* addRunning(CLI::App& command, CampaignOptions& o) {
   command
       .add_option("--out", o.out,
                   "Folder for the results (default out/campaign-<id>); campaigns may share one")
@@ -98,22 +99,26 @@ void addRunning(CLI::App& command, CampaignOptions& o) {
           "Only this part of the work: I/N, with I from 1 to N (or from 0: N is 0, too)")
       ->type_name("I/N")
       ->check(aPart());
-  command
-      .add_option_function<std::string>(
-          "--keep", [&o](const std::string& text) { o.keeps = kKeeps.at(text); },
-          "What stays of each session: its table; that and session.palpa, for replay and records "
-          "(evidence, the default); these and report.html (reports)")
-      ->check(oneOf(keysOf(kKeeps)))
-      ->type_name("evidence|reports|table");
+  const CLI::Option* keep =
+      command
+          .add_option_function<std::string>(
+              "--keep", [&o](const std::string& text) { o.keeps = kKeeps.at(text); },
+              "What stays of each session: its table (default); that and session.palpa, for replay "
+              "and records (evidence, the default with --records; 45 MB a minute with a needle); "
+              "these and report.html (reports)")
+          ->check(oneOf(keysOf(kKeeps)))
+          ->type_name("evidence|reports|table");
   command
       .add_option("--records", o.records,
                   "Add the trials to these records, as those of simulated trainees: a file, or "
                   "postgresql://user@host/database")
       ->type_name("FILE|URL");
   command.add_flag("--quiet", o.quiet, "No progress on standard error");
+  return keep;
 }
 
-void act(const CampaignOptions& o, const Actions& actions) {
+void act(CampaignOptions o, const Actions& actions, bool keep_given) {
+  if (!o.records.empty() && !keep_given) o.keeps = CampaignKeeps::evidence;
   if (!o.records.empty() && o.keeps == CampaignKeeps::table)
     throw UsageError("need the evidence", "--records with --keep table", "Leave one of them out");
   if (!o.records.empty() && o.parts > 1)
@@ -140,9 +145,9 @@ void addCampaign(CLI::App& program) {
       ->required()
       ->type_name("FILE")
       ->check(somethingThere("campaigns"));
-  addRunning(*command, *o);
+  const CLI::Option* keep = addRunning(*command, *o);
   addActions(*command, *actions);
-  command->callback([o, actions] { act(*o, *actions); });
+  command->callback([o, actions, keep] { act(*o, *actions, keep->count() > 0); });
 }
 
 }  // namespace palpa::cli

@@ -27,13 +27,13 @@ struct CampaignOptions {
   int jobs = 0;         ///< processes at a time; 0: one a processor
   int part = 0;         ///< of so many parts, from 0 or from 1: the last is the 0th, too
   int parts = 1;
-  CampaignKeeps keeps = CampaignKeeps::evidence;
+  CampaignKeeps keeps = CampaignKeeps::table;  ///< records need the evidence
   bool quiet = false;
 };
 
 /// A campaign and where its results are: out/results/<key>, a folder a session, which takes its
-/// name when it is whole; out/work/<key> before, beside <key>.lock, which whoever computes it
-/// holds. Two that run beside each other, also on two computers, compute nothing twice.
+/// name when it is whole; before, it stands in the folder `work` beside <key>.lock, which whoever
+/// computes it holds. Two that run beside each other, also on two computers, compute nothing twice.
 struct PlannedCampaign {
   Campaign campaign;
   CampaignOptions options;

@@ -129,8 +129,11 @@ void deliverCampaign(const PlannedCampaign& plan) {
     const std::string uuid = sessionOptions(plan.campaign, n, plan.keys[n]).uuid;
     const auto known = static_cast<int>(store.trials({.session = uuid}).size());
     present += known;
-    if (known < plan.campaign.trials)
-      added += evidence::deliverEvidence(plan.result(n) / "session.palpa", url).trials.added;
+    if (known >= plan.campaign.trials) continue;
+    if (!plan.isDone(n))
+      throw Error("lacks the evidence that records need", plan.result(n).string(),
+                  "Run the campaign with --records, without --collect");
+    added += evidence::deliverEvidence(plan.result(n) / "session.palpa", url).trials.added;
   }
   std::printf("In the %s: %s added, %d were there\n", store.place().c_str(),
               counted(added, "trial").c_str(), present);
