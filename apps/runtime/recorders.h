@@ -6,6 +6,7 @@
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
+#include "apps/runtime/clock.h"
 #include "haptics/loop/tick_config.h"
 
 namespace palpa::runtime {
