@@ -383,9 +383,9 @@ Kind campaignKind() {
                   {"campaigns/needle_by_touch.json",
                    session_of("search.json", {{"name", "all"}, {"mode", "all"}})}},
       .read = [](const fs::path& file) { study::readCampaign(file); },
-      // Files must be there, tasks of one engine; nothing is named twice; not too many in all.
+      // Files must be there, tasks of one engine; not too many in all.
       .stricter = {"/(tasks|station|operators|patient_files).*", "/settings/./presentation.*",
-                   "/(patients|seeds)/count.*", "/settings.*"},
+                   "/(patients|seeds)/count.*"},
       .forgiving = {},
       .elsewhere = {}};
 }
