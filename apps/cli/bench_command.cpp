@@ -85,6 +85,7 @@ void addRecordsBench(CLI::App& bench) {
                    "How many, in hundreds; several one after the other, the records growing "
                    "(default 1000,10000,100000)")
       ->delimiter(',')
+      ->type_name("NUMBER,...")
       ->check(inRange(100, 1'000'000));
   records->callback([options] { bench::benchRecords(*options); });
 }
