@@ -1,6 +1,7 @@
 #include "apps/session/finish_session.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/os/file_access.h"
+#include "apps/runtime/clock.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
@@ -128,13 +130,20 @@ fs::path evidenceOf(const fs::path& given) {
   return file;
 }
 
-void requireNotRunning(const fs::path& folder) {
-  bool held = false;
+bool isHeld(const fs::path& folder) {
   try {
-    held = begunSessions().isHeld(noteNameOf(folder));
+    return begunSessions().isHeld(noteNameOf(folder));
   } catch (const Error&) {  // nothing was noted
+    return false;
   }
-  if (held)
+}
+
+/// A program that was killed holds its note until the system has taken its memory back.
+void requireNotRunning(const fs::path& folder) {
+  constexpr int kLooks = 30;
+  for (int look = 0; look < kLooks && isHeld(folder); ++look)
+    runtime::rest(std::chrono::milliseconds(100));
+  if (isHeld(folder))
     throw UsageError("is still running, or is being finished", folder.string(),
                      "Wait until it is over; Escape or Ctrl-C ends a session with its report");
 }
