@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,8 +13,10 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "anatomy/base/whole_file.h"
 #include "apps/os/child_process.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
@@ -78,6 +81,30 @@ TEST(Processes, AStoppedOneIsSeenToBeAndIsEnded) {
   endAtOnce(process);
   while (runs(process)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
   EXPECT_FALSE(isStopped(process));
+}
+
+/// What a killed program is for a while: its first thread has ended, another has not, and its files
+/// are open.
+TEST(Processes, OneRunsAsLongAsAThreadOfIt) {
+  const SharedMemory<std::atomic<bool>> gone("");
+  const SharedMemory<ProcessId> who("");
+  *gone = false;
+  EXPECT_TRUE(forkWorker([&] {
+    *who = thisProcess();
+    const int first = processNumber();
+    std::thread([&gone, first] {
+      const std::string stat = "/proc/" + std::to_string(first) + "/stat";
+      while (readWhole(stat).value_or("").find(") Z ") == std::string::npos)
+        sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+      *gone = true;
+      for (;;) ::pause();
+    }).detach();
+    ::syscall(SYS_exit, 0);
+  }));
+  while (!*gone) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+  EXPECT_TRUE(runs(*who));
+  endAtOnce(*who);
+  while (runs(*who)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
 }
 
 TEST(Processes, TheLineToACompanionEndsWithIt) {
