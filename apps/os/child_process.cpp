@@ -23,6 +23,7 @@ constexpr int kNice = 10, kFirstOfOurs = 3;
 
 struct ProcessState {
   char letter = 'X';
+  int threads = 0;
   std::uint64_t began = 0;
 };
 ProcessState stateOf(int pid) {
@@ -33,15 +34,17 @@ ProcessState stateOf(int pid) {
   ProcessState state;
   std::string skipped;
   fields >> state.letter;
-  for (int field = 4; field < 22; ++field) fields >> skipped;
-  fields >> state.began;
+  for (int field = 4; field < 20; ++field) fields >> skipped;
+  fields >> state.threads >> skipped >> state.began;
   return state;
 }
 
-/// 0: there is no such process, or it has ended and waits to be put away.
+/// 0: there is no such process, or it has ended and waits to be put away. One of which the first
+/// thread alone has ended holds its files, locks and sockets still.
 std::uint64_t beganAt(int pid) {
   const ProcessState state = stateOf(pid);
-  return state.letter == 'Z' || state.letter == 'X' ? 0 : state.began;
+  const bool ended = state.letter == 'X' || (state.letter == 'Z' && state.threads <= 1);
+  return ended ? 0 : state.began;
 }
 
 struct Spawning {

@@ -1,7 +1,6 @@
 #include "apps/session/finish_session.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -138,12 +137,8 @@ bool isHeld(const fs::path& folder) {
   }
 }
 
-/// A program that was killed holds its note until the system has taken its memory back.
 void requireNotRunning(const fs::path& folder) {
-  constexpr int kLooks = 30;
-  for (int look = 0; look < kLooks && isHeld(folder); ++look)
-    runtime::rest(std::chrono::milliseconds(100));
-  if (isHeld(folder))
+  if (!runtime::comesTrue(runtime::kKilledLetsGo, [&] { return !isHeld(folder); }))
     throw UsageError("is still running, or is being finished", folder.string(),
                      "Wait until it is over; Escape or Ctrl-C ends a session with its report");
 }

@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "anatomy/base/error.h"
@@ -123,12 +125,14 @@ TEST(Workers, HaveAtLeastOneProcessor) {
   EXPECT_LE(processorsForUs(), ::sysconf(_SC_NPROCESSORS_CONF));
 }
 
-/// A process that only waits, as a session that is stopped or killed is seen by others.
-ProcessId sleepingOne(WorkerPool& pool) {
-  pool.start(0, [](const Report& report) {
-    report(std::to_string(thisProcess().began) + " " + std::to_string(thisProcess().pid));
-    for (;;) ::pause();
-  });
+/// Which process this is.
+void tellWho(const Report& report) {
+  report(std::to_string(thisProcess().began) + " " + std::to_string(thisProcess().pid));
+}
+
+/// A process that tells who it is, and then waits.
+ProcessId waitingOne(WorkerPool& pool, const std::function<void(const Report&)>& waits) {
+  pool.start(0, waits);
   std::vector<WorkerNews> news;
   while (news.empty()) news = pool.await(kLook_ns);
   ProcessId who;
@@ -138,7 +142,10 @@ ProcessId sleepingOne(WorkerPool& pool) {
 
 TEST(Processes, AStoppedOneIsSeenToBeAndIsEnded) {
   WorkerPool pool(1);
-  const ProcessId process = sleepingOne(pool);
+  const ProcessId process = waitingOne(pool, [](const Report& report) {
+    tellWho(report);
+    for (;;) ::pause();
+  });
   EXPECT_TRUE(runs(process));
   EXPECT_FALSE(isStopped(process));
   ::kill(process.pid, SIGSTOP);
@@ -149,6 +156,25 @@ TEST(Processes, AStoppedOneIsSeenToBeAndIsEnded) {
   endAtOnce(process);
   while (runs(process)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
   EXPECT_FALSE(isStopped(process));
+}
+
+/// What a killed program is for a while: its first thread has ended, another has not, and its files
+/// are open.
+TEST(Processes, OneRunsAsLongAsAThreadOfIt) {
+  WorkerPool pool(1);
+  const ProcessId process = waitingOne(pool, [](const Report& report) {
+    std::thread([&report, first = processNumber()] {
+      const std::string stat = "/proc/" + std::to_string(first) + "/stat";
+      while (readWhole(stat).value_or("").find(") Z ") == std::string::npos)
+        sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+      tellWho(report);
+      for (;;) ::pause();
+    }).detach();
+    ::syscall(SYS_exit, 0);
+  });
+  EXPECT_TRUE(runs(process));
+  endAtOnce(process);
+  while (runs(process)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
 }
 
 TEST(Processes, TheLineToACompanionEndsWithIt) {
