@@ -138,6 +138,7 @@ struct FlightRecord {
   std::uint8_t subtasks = 0;        ///< bit i: part i of the task is on
   std::uint8_t augmenting = 0;      ///< bit i: augmentation i adds force
   std::uint8_t began = 0;           ///< bit i: it was triggered in this tick
+  std::uint8_t reserved[7]{};       ///< or the same tick would have other bytes
   Packed3 f_augmentation_D{};       ///< of all augmentations, as computed; in `f_wanted_D`
 };
 static_assert(std::is_trivially_copyable_v<FlightRecord>);

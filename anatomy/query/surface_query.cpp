@@ -25,14 +25,15 @@ struct SurfaceQuery::Impl {
   std::vector<Organ> organs;
 };
 
-SurfaceQuery::SurfaceQuery(const Patient& patient) : impl_(std::make_unique<Impl>()) {
+SurfaceQuery::SurfaceQuery(const Patient& patient, Curvature curvature)
+    : impl_(std::make_unique<Impl>()) {
   impl_->trees.reserve(patient.organs.size());
   for (const OrganSurface& surface : patient.organs) {
     if (surface.mesh.triangles.empty())
       throw Error("the surface \"" + surface.id + "\" has no triangles", "patient " + patient.name,
                   "Leave the surface out or give it a mesh");
     impl_->trees.emplace_back(surface.mesh);
-    impl_->shapes.push_back(vertexShapeOperators(surface.mesh));
+    if (curvature == Curvature::ready) impl_->shapes.push_back(vertexShapeOperators(surface.mesh));
     impl_->organs.push_back(surface.organ);
   }
 }
@@ -49,6 +50,9 @@ SurfacePoint SurfaceQuery::closest(int surface, const Vec3& p_A) const {
 }
 
 CurvedPoint SurfaceQuery::curved(int surface, const Vec3& p_A) const {
+  if (impl_->shapes.empty())
+    throw Error("the curvatures were left out", "surface query",
+                "This is a fault of the program: report it");
   const TriangleTree::Closest nearest = impl_->trees.at(surface).closest(p_A);
   const std::vector<ShapeOperator>& shapes = impl_->shapes[surface];
   ShapeOperator S = ShapeOperator::Zero();

@@ -72,7 +72,9 @@ struct NearMiss {
 /// may run in several threads at once. Only `cast` that fills a vector allocates.
 class SurfaceQuery {
  public:
-  explicit SurfaceQuery(const Patient& patient);
+  /// `ready` takes the vertices' shape operators beforehand; without them `curved` throws Error.
+  enum class Curvature { ready, left_out };
+  explicit SurfaceQuery(const Patient& patient, Curvature curvature = Curvature::ready);
   ~SurfaceQuery();
   SurfaceQuery(SurfaceQuery&&) noexcept;
   SurfaceQuery& operator=(SurfaceQuery&&) noexcept;

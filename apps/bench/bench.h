@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace palpa::bench {
 
@@ -61,6 +63,16 @@ struct MaterialBenchOptions {
 /// elements: one JSON object a line on standard output. Throws Error.
 void benchMaterial(const MaterialBenchOptions& options);
 
+struct RecordsBenchOptions {
+  std::string records;                             ///< an empty database; empty: a file that passes
+  std::vector<int> trials{1000, 10'000, 100'000};  ///< in hundreds: that of a trainee
+};
+
+/// Time and peak memory of a cohort's page and of an export over so many drawn (simulated) trials,
+/// each in a process of its own. One JSON object a line. What was drawn stays in a database that
+/// was given. Throws Error; UsageError for one that holds records.
+void benchRecords(const RecordsBenchOptions& options);
+
 struct RenderBenchOptions {
   int width = 1280, height = 720;
   bool quick = false;  ///< fewer blocks
@@ -69,6 +81,18 @@ struct RenderBenchOptions {
 /// What our frame costs beside VTK's own of the same actors, where its time goes, and translucent
 /// surfaces beside depth peeling. One JSON object a line. Throws Error where nothing can be drawn.
 void benchRender(const RenderBenchOptions& options);
+
+struct SessionBenchOptions {
+  int trials = 4;
+  std::uint64_t seed = 1;
+  bool views = false;  ///< the scene is drawn where a trial is to be seen
+};
+
+/// What a paracentesis session of the simulated expert costs in virtual time, in the processor's
+/// time of all its threads: seconds until its first tick with the patient built and with the
+/// patient kept, how many times as fast as real time it runs from there, and which share of that
+/// each stage takes. One JSON object a line. Throws Error.
+void benchSession(const SessionBenchOptions& options);
 
 struct StopBenchOptions {
   int presses = 200;  ///< from each source, with each part hung

@@ -1,4 +1,4 @@
-#include "apps/bench/lump_study.h"
+#include "apps/bench/contact_study.h"
 
 #include <algorithm>
 

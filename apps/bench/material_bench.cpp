@@ -7,7 +7,6 @@
 
 #include "apps/bench/contact_study.h"
 #include "apps/bench/hand_study.h"
-#include "apps/bench/lump_study.h"
 #include "apps/bench/timing.h"
 #include "apps/station/assets.h"
 

@@ -23,8 +23,7 @@ struct TrackingFit {
   double most_aside = 0.12, aside_step = 0.02;  ///< share of the distance
   int views = 12;                               ///< of each place, each with a lens of its own
   /// when pictures of a view are taken, as the camera sways
-  std::vector<double> seconds{0,        1 / 15.0, 2 / 15.0, 3 / 15.0,
-                              8 / 15.0, 9 / 15.0, 1,        2};
+  std::vector<double> seconds{0, 1 / 15.0, 2 / 15.0, 3 / 15.0, 8 / 15.0, 9 / 15.0, 1, 2};
   std::size_t repeated = 2;   ///< of these, taken a second time
   std::uint64_t seed = 5001;  ///< of the first lens
 };

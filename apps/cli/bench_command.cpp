@@ -72,6 +72,26 @@ void addMaterial(CLI::App& bench) {
   material->callback([options] { bench::benchMaterial(*options); });
 }
 
+void addRecordsBench(CLI::App& bench) {
+  CLI::App* records = bench.add_subcommand(
+      "records", "Time and memory of a cohort's page and of an export (simulated trials)");
+  records->footer(
+      "Example:\n  palpa bench records > records.jsonl\n  palpa bench records --trials 1000\n  "
+      "palpa bench records --records postgresql://palpa@localhost/bench\n      an empty database, "
+      "in which the simulated trials stay");
+  const auto options = std::make_shared<bench::RecordsBenchOptions>();
+  records->add_option("--records", options->records,
+                      "An empty database or a new file; default: a file that passes");
+  records
+      ->add_option("--trials", options->trials,
+                   "How many, in hundreds; several one after the other, the records growing "
+                   "(default 1000,10000,100000)")
+      ->delimiter(',')
+      ->type_name("NUMBER,...")
+      ->check(inRange(100, 1'000'000));
+  records->callback([options] { bench::benchRecords(*options); });
+}
+
 void addRenderBench(CLI::App& bench) {
   CLI::App* render = bench.add_subcommand(
       "render",
@@ -86,6 +106,20 @@ void addRenderBench(CLI::App& bench) {
       ->check(inRange(240, 4096));
   render->add_flag("--quick", options->quick, "Fewer repetitions");
   render->callback([options] { bench::benchRender(*options); });
+}
+
+void addSession(CLI::App& bench) {
+  CLI::App* session = bench.add_subcommand(
+      "session", "How many times real time a simulated session runs, how soon it starts, and why");
+  session->footer(
+      "Example:\n  palpa bench session > session.jsonl\n  palpa bench session --trials 10");
+  const auto options = std::make_shared<bench::SessionBenchOptions>();
+  session->add_option("--trials", options->trials, "Trials of the session (default 4)")
+      ->check(inRange(1, 1000));
+  session->add_option("--seed", options->seed, "Seed of the first trial (default 1)")
+      ->check(atLeastZero());
+  session->add_flag("--views", options->views, "With pictures of the scene");
+  session->callback([options] { bench::benchSession(*options); });
 }
 
 void addStop(CLI::App& bench) {
@@ -190,7 +224,9 @@ void addBench(CLI::App& program) {
   addHaptics(*bench);
   addLoop(*bench);
   addMaterial(*bench);
+  addRecordsBench(*bench);
   addRenderBench(*bench);
+  addSession(*bench);
   addStop(*bench);
   addTracking(*bench);
 }

@@ -29,12 +29,13 @@ void addRender(CLI::App& program);
 void addBoard(CLI::App& program);
 void addPhantom(CLI::App& program);
 void addExport(CLI::App& program);
-void addRecords(CLI::App& program);  ///< trainees and their trials
-void addStudy(CLI::App& program);    ///< a protocol's sessions, who is where in it
-void addRate(CLI::App& program);     ///< human raters
-void addReport(CLI::App& program);   ///< pages of a trainee or a group
-void addDoctor(CLI::App& program);   ///< is the station well?
-void addConsole(CLI::App& program);  ///< the educator's pages
+void addRecords(CLI::App& program);   ///< trainees and their trials
+void addStudy(CLI::App& program);     ///< a protocol's sessions, who is where in it
+void addCampaign(CLI::App& program);  ///< simulated sessions by the thousand
+void addRate(CLI::App& program);      ///< human raters
+void addReport(CLI::App& program);    ///< pages of a trainee or a group
+void addDoctor(CLI::App& program);    ///< is the station well?
+void addConsole(CLI::App& program);   ///< the educator's pages
 void addBench(CLI::App& program);
 void addManual(
     CLI::App& program,
@@ -61,5 +62,23 @@ void addStudyAnalyse(CLI::App& study);
 
 /// `palpa study plan`: what a study of some size would find, from the learning model alone.
 void addStudyPlan(CLI::App& study);
+
+/// How a recorded trial is to be seen.
+struct ReplayViewOptions {
+  bool view = false;
+  std::string video;     ///< film to write
+  std::string pictures;  ///< folder for single pictures; both empty: a window
+  std::string size = "1280x720";
+  int trial = 0;                            ///< 0: the first that was finished
+  double speed = 1, from_s = 0, to_s = -1;  ///< of the trial; -1: to its end
+  double frames_per_second = 25;
+  bool wanted() const { return view || !video.empty() || !pictures.empty(); }
+};
+
+void addReplayViewOptions(CLI::App& command, ReplayViewOptions& options);
+
+/// Plays a trial of any task's session in a window, or writes it as a film or as single pictures.
+/// Throws UsageError for a trial that is not there, Error where there is no display.
+void viewReplay(const std::string& file, const ReplayViewOptions& options);
 
 }  // namespace palpa::cli

@@ -20,6 +20,9 @@ constexpr Named kFiles[] = {
      "the usual records of trainees; nobody is recorded unless records and a trainee are named"},
     {"~/.local/share/palpa/console/", "what the console keeps of the sessions that it started"},
     {"~/.local/state/palpa/pending/", "sessions that wait to be delivered to the records"},
+    {"~/.cache/palpa/patients/",
+     "patients that were built, so that the next session starts sooner: at most 512 MB, the oldest "
+     "go first. No imported patient. It may be removed at any time"},
     {"/usr/share/palpa/assets/",
      "materials, patients, tasks, stations, protocols: data with units and sources. Copy a "
      "station's file from stations/ and change the copy"},
@@ -28,7 +31,8 @@ constexpr Named kFiles[] = {
 constexpr Named kVariables[] = {
     {"PALPA_ASSETS", "another folder with the program's data"},
     {"PALPA_CACHE",
-     "a folder where patients that were built are kept, so that the next session starts sooner"},
+     "in place of ~/.cache/palpa, the folder where patients that were built are kept; off: none is "
+     "kept"},
     {"PALPA_RECORDS",
      "the records of trainees: a file, or postgresql://user@host/database (the password in "
      "~/.pgpass)"},
@@ -36,8 +40,8 @@ constexpr Named kVariables[] = {
      "without it nothing is shown in a window: a simulated operator performs, pictures are drawn "
      "into files"},
     {"XR_RUNTIME_JSON", "the headset's OpenXR runtime, where it is not the usual one"},
-    {"XDG_DATA_HOME, XDG_STATE_HOME, XDG_CONFIG_HOME",
-     "in place of ~/.local/share, ~/.local/state and ~/.config"},
+    {"XDG_DATA_HOME, XDG_STATE_HOME, XDG_CACHE_HOME, XDG_CONFIG_HOME",
+     "in place of ~/.local/share, ~/.local/state, ~/.cache and ~/.config"},
     {"XDG_RUNTIME_DIR", "where a running session and the console meet"},
     {"NETRC", "where the password of a learning record store is, in place of ~/.netrc"},
 };

@@ -61,6 +61,7 @@ void addCommands(CLI::App& program) {
   addExport(program);
   addRecords(program);
   addStudy(program);
+  addCampaign(program);
   addReport(program);
   addRate(program);
   addDoctor(program);

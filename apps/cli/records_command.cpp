@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -67,7 +68,10 @@ void listTrainees(const RecordsOptions& o) {
   record::RecordStore store(o.url);
   const std::vector<record::Trainee> all = store.trainees();
   std::printf("%s in the %s\n", counted(all.size(), "trainee").c_str(), store.place().c_str());
-  for (const record::Trainee& t : all) print(t, store.sessions(t.id).size());
+  std::map<std::string, std::size_t> sessions;
+  for (const record::Tally& tally : store.tallies())
+    sessions[tally.trainee] = static_cast<std::size_t>(tally.sessions);
+  for (const record::Trainee& t : all) print(t, sessions[t.id]);
 }
 
 void bring(const fs::path& file, const std::string& url) {

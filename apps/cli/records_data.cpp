@@ -154,16 +154,16 @@ void exportRecords(const RecordsOptions& o) {
   record::RecordStore store(o.url);
   People people = chosen(store, o);
   if (o.research) keepAgreed(people, &record::Trainee::research_utc, "use in studies");
-  const link::Dataset data = link::datasetOf(store, people);
   session::OutputFolder output(o.out, "records");
   const std::filesystem::path& folder = output.path();
-  const auto written = link::writeTables(link::tablesOf(data, o.paths), formatOf(o.format), folder);
+  const record::SqlTransaction moment(store.connection(), record::Access::read);
+  const link::ExportSource source{store.connection(), people, o.paths};
+  const auto written = link::writeTables(link::tablesOf(source), formatOf(o.format), folder);
   output.keep();
-  const auto simulated = std::count_if(data.sessions.begin(), data.sessions.end(),
-                                       [](const record::StoredSession& s) { return s.simulated; });
-  std::printf("%s, %s (%lld simulated), %s\n", counted(people.size(), "trainee").c_str(),
-              counted(data.sessions.size(), "session").c_str(), static_cast<long long>(simulated),
-              counted(data.trials.size(), "trial").c_str());
+  const link::Extent extent = link::extentOf(source);
+  std::printf("%s, %s (%zu simulated), %s\n", counted(people.size(), "trainee").c_str(),
+              counted(extent.sessions, "session").c_str(), extent.simulated,
+              counted(extent.trials, "trial").c_str());
   std::printf("Written to %s:\n", folder.string().c_str());
   for (const std::string& name : written) std::printf("  %s\n", name.c_str());
 }

@@ -14,7 +14,7 @@
 #include "apps/link/outbox.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/finish_session.h"
-#include "apps/study/run/station_copy.h"
+#include "apps/study/run/participant.h"
 
 namespace palpa::cli {
 namespace {

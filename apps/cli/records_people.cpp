@@ -60,10 +60,10 @@ void showTrainee(const RecordsOptions& o) {
               t.retain_until.empty() ? "no limit was set" : t.retain_until.c_str());
   std::printf("  %s, %s\n", counted(sessions.size(), "session").c_str(),
               counted(trials.size(), "trial").c_str());
+  auto next = trials.begin();  // both are in the order of arrival
   for (const record::StoredSession& s : sessions) {
     printSession(s);
-    for (const record::TrialWithSession& trial : trials)
-      if (trial.session.uuid == s.uuid) printTrial(trial.trial);
+    for (; next != trials.end() && next->session.uuid == s.uuid; ++next) printTrial(next->trial);
   }
 }
 

@@ -9,7 +9,6 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/replay_view.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/record/session_file.h"

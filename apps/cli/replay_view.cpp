@@ -1,4 +1,4 @@
-#include "apps/cli/replay_view.h"
+#include "apps/cli/commands.h"
 
 #include <cmath>
 #include <cstdio>

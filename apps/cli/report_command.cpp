@@ -216,20 +216,20 @@ void reportTrainee(const ReportOptions& o) {
 void reportCohort(const ReportOptions& o) {
   statistics::cusumLimits(o.rates);
   record::RecordStore store(o.url);
-  const report::CohortReport page{o.choice.group, runtime::utcNow(),
-                                  std::string("palpa ") + PALPA_VERSION, o.rates,
-                                  evidence::practiceIn(store, o.choice)};
-  if (page.trials.empty())
+  report::CohortReport page{o.choice.group, runtime::utcNow(),
+                            std::string("palpa ") + PALPA_VERSION, o.rates,
+                            evidence::practiceIn(store, o.choice)};
+  const std::size_t trials = page.trials.size();
+  if (trials == 0)
     throw UsageError(
         "has no trials in the records",
         o.choice.group.empty() ? "this choice" : "group " + o.choice.group,
         "palpa records trainee list shows the groups; palpa records add brings sessions in");
   session::OutputFolder output(o.out, "report-cohort");
   const std::filesystem::path file = output.path() / "cohort.html";
-  report::writeCohortReport(page, file);
+  report::writeCohortReport(std::move(page), file);
   output.keep();
-  std::printf("Written: %s (%s)\n", file.string().c_str(),
-              counted(page.trials.size(), "trial").c_str());
+  std::printf("Written: %s (%s)\n", file.string().c_str(), counted(trials, "trial").c_str());
 }
 
 void addPageArguments(CLI::App& command, ReportOptions& o) {

@@ -13,7 +13,7 @@
 #include "apps/report/study/study_report.h"
 #include "apps/session/output_folder.h"
 #include "apps/study/analysis/power_analysis.h"
-#include "apps/study/run/study_rows.h"
+#include "apps/study/run/study_run.h"
 
 namespace palpa::cli {
 namespace {

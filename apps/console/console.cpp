@@ -24,10 +24,8 @@ constexpr std::chrono::milliseconds kRound{200};
 /// however it ends.
 class OnlyOne {
  public:
-  explicit OnlyOne(const fs::path& home)
-      : url_(home / "address"),
-        lock_(os::FileLock::exclusive(home / "lock", os::FileLock::Missing::is_made)) {
-    if (lock_) return;
+  explicit OnlyOne(const fs::path& home) : url_(home / "address") {
+    if (runtime::comesTrue(runtime::kKilledLetsGo, [&] { return takes(home / "lock"); })) return;
     std::string url;
     std::getline(std::ifstream(url_), url);
     throw Error("runs already", "a console of this user" + (url.empty() ? "" : " (" + url + ")"),
@@ -40,8 +38,12 @@ class OnlyOne {
   void announce(const std::string& url) { writeWhole(url_, url + "\n", Lasts::no); }
 
  private:
+  bool takes(const fs::path& file) {
+    lock_ = os::FileLock::exclusive(file, os::FileLock::Missing::is_made);
+    return lock_ != nullptr;
+  }
   const fs::path url_;
-  const std::unique_ptr<os::FileLock> lock_;
+  std::unique_ptr<os::FileLock> lock_;
 };
 
 std::string bracketed(const std::string& host) {
@@ -55,6 +57,17 @@ std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
   for (const std::string& name : names)
     hosts.push_back(bracketed(name) + ":" + std::to_string(port));
   return hosts;
+}
+
+/// Where it listens: the port asked for, or any free one.
+int portOf(WebServer& server, const ConsoleSettings& s) {
+  if (s.port != 0 && runtime::comesTrue(runtime::kKilledLetsGo,
+                                        [&] { return server.bind_to_port(s.address, s.port); }))
+    return s.port;
+  if (const int port = s.port == 0 ? server.bind_to_any_port(s.address) : 0; port > 0) return port;
+  throw Error("cannot be opened for listening",
+              s.address + (s.port ? ", port " + std::to_string(s.port) : ""),
+              "Perhaps another program uses it: choose another with --port");
 }
 
 /// The server's own thread, ended in any case: an error on the way, as of a full disk, is to be
@@ -109,13 +122,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   Refusals refusals(s.place.home / "refused.log");
   Guard guard(s.token);
   WebServer server(guard, refusals);
-  const int port = s.port == 0                              ? server.bind_to_any_port(s.address)
-                   : server.bind_to_port(s.address, s.port) ? s.port
-                                                            : -1;
-  if (port <= 0)
-    throw Error("cannot be opened for listening",
-                s.address + (s.port ? ", port " + std::to_string(s.port) : ""),
-                "Perhaps another program uses it: choose another with --port");
+  const int port = portOf(server, s);
   guard.answerTo(hostsOf(s, port));
   Console console(s.place, guard, s.tone);
   addPages(server, console);

@@ -47,10 +47,8 @@ record::Trainee traineeIn(const json& body) {
 }
 
 json trainees(record::RecordStore& store) {
-  std::map<std::string, std::pair<int, int>> counts;
-  for (const record::StoredSession& session : store.sessions()) ++counts[session.trainee].first;
-  for (const record::TrialWithSession& trial : store.trials())
-    ++counts[trial.session.trainee].second;
+  std::map<std::string, record::Tally> counts;
+  for (const record::Tally& tally : store.tallies()) counts[tally.trainee] = tally;
   json all = json::array();
   for (const record::Trainee& t : store.trainees())
     all.push_back({{"id", t.id},
@@ -61,8 +59,8 @@ json trainees(record::RecordStore& store) {
                    {"consent_utc", t.consent_utc},
                    {"research_utc", t.research_utc},
                    {"retain_until", t.retain_until},
-                   {"sessions", counts[t.id].first},
-                   {"trials", counts[t.id].second}});
+                   {"sessions", counts[t.id].sessions},
+                   {"trials", counts[t.id].trials}});
   return all;
 }
 
@@ -78,7 +76,9 @@ json report(Console& c, const std::string& key, const std::string& title,
 
 /// Changes with every trial that comes into the records.
 std::string stateOfRecords(record::RecordStore& store, const std::string& trainee) {
-  return std::to_string(store.trials({.trainee = trainee}).size());
+  std::int64_t trials = 0;
+  for (const record::Tally& tally : store.tallies(trainee)) trials += tally.trials;
+  return std::to_string(trials);
 }
 
 /// What an educator can start now; empty: nothing.

@@ -1,7 +1,10 @@
 #include "apps/evidence/evidence_records.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -182,12 +185,48 @@ EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const st
 
 namespace {
 
+/// Trials as they come, those of a session after one another: what its description says and which
+/// figures there are is looked up once for all that share it.
+class Practice {
+ public:
+  progress::PracticeTrial of(const record::TrialWithSession& stored);
+
+ private:
+  void readSession(const record::StoredSession& session);
+  void readNames(const std::vector<record::Metric>& metrics);
+  std::string conditionOf(const record::StoredTrial& trial, bool by_path) const;
+
+  std::string session_;
+  bool cues_on_ = false;
+  std::vector<std::string> names_;  ///< of the metrics
+  std::vector<std::size_t> numbers_;
+  std::optional<Engine> engine_;
+};
+
+void Practice::readSession(const record::StoredSession& session) {
+  if (session.uuid == session_) return;
+  cues_on_ = parseJson(session.facts_json).value("augment", false);
+  session_ = session.uuid;
+}
+
+void Practice::readNames(const std::vector<record::Metric>& metrics) {
+  if (std::equal(metrics.begin(), metrics.end(), names_.begin(), names_.end(),
+                 [](const record::Metric& m, const std::string& name) { return m.name == name; }))
+    return;
+  names_.clear();
+  numbers_.clear();
+  for (const record::Metric& m : metrics) {
+    names_.push_back(m.name);
+    numbers_.push_back(progress::keptNumber(m.name));
+  }
+  engine_ = progress::engineOfFigures(names_);
+}
+
 /// What makes a trial unlike others of its task: a search's stiffness, other scoring rules, cues,
 /// guidance.
-std::string conditionOf(const record::TrialWithSession& stored, bool by_path) {
-  const nlohmann::json facts = parseJson(stored.session.facts_json),
-                       score = stored.trial.score_json.empty() ? nlohmann::json::object()
-                                                               : parseJson(stored.trial.score_json);
+std::string Practice::conditionOf(const record::StoredTrial& trial, bool by_path) const {
+  const nlohmann::json score =
+      trial.score_json.empty() ? nlohmann::json::object() : parseJson(trial.score_json);
   std::string condition = score.value("MODE", "");
   const auto also = [&](const std::string& words) {
     condition += (condition.empty() ? "" : ", ") + words;
@@ -195,7 +234,7 @@ std::string conditionOf(const record::TrialWithSession& stored, bool by_path) {
   const std::string rules = score.value("RULES", "1");
   if (by_path && rules != assess::kNewestRules)
     also(rules == assess::kPublishedRules ? "scored as published" : "rules " + rules);
-  if (facts.value("augment", false)) also("cues on");
+  if (cues_on_) also("cues on");
   if (const auto guided = score.find("GUIDED");
       guided != score.end() &&
       (guided->is_boolean() ? guided->get<bool>() : guided->get<double>() > 0))
@@ -203,15 +242,13 @@ std::string conditionOf(const record::TrialWithSession& stored, bool by_path) {
   return condition;
 }
 
-}  // namespace
-
-progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
-                                   const std::string& group) {
+progress::PracticeTrial Practice::of(const record::TrialWithSession& stored) {
+  readNames(stored.trial.metrics);
   progress::PracticeTrial t;
-  for (const record::Metric& m : stored.trial.metrics) t.metrics.push_back({m.name, m.value});
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    t.figures.set(numbers_[i], stored.trial.metrics[i].value);
   t.trainee = stored.session.trainee;
-  t.group = group;
-  t.engine = progress::engineOfFigures(t.metrics);
+  t.engine = engine_;
   t.task = stored.session.task;
   t.started_utc = stored.session.started_utc;
   t.arrival = stored.session.arrival;
@@ -221,7 +258,8 @@ progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
   t.simulated = stored.session.simulated;
   t.force_feedback = stored.trial.force_feedback;
   try {
-    t.condition = conditionOf(stored, std::isfinite(t.metric("total")));
+    readSession(stored.session);
+    t.condition = conditionOf(stored.trial, std::isfinite(t.metric("total")));
   } catch (const nlohmann::json::exception& e) {
     throw Error(
         "a session's description is damaged (" + whyNoJson(stored.session.facts_json, e) + ")",
@@ -230,20 +268,22 @@ progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
   return t;
 }
 
+}  // namespace
+
 std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,
                                                 const PracticeChoice& choice) {
-  std::map<std::string, std::string> groups;
-  for (const record::Trainee& trainee : store.trainees()) groups[trainee.id] = trainee.group;
-  record::TrialFilter filter;
-  filter.trainee = choice.trainee;
-  filter.task = choice.task;
-  std::vector<progress::PracticeTrial> practice;
-  for (const record::TrialWithSession& stored : store.trials(filter)) {
-    const std::string& group = groups[stored.session.trainee];
-    if (choice.group.empty() || group == choice.group)
-      practice.push_back(practiceOf(stored, group));
-  }
-  return practice;
+  std::set<std::string> group;
+  if (!choice.group.empty())
+    for (const record::Trainee& trainee : store.trainees())
+      if (trainee.group == choice.group) group.insert(trainee.id);
+  std::vector<progress::PracticeTrial> all;
+  Practice practice;
+  store.eachTrial({.trainee = choice.trainee, .task = choice.task},
+                  [&](const record::TrialWithSession& stored) {
+                    if (choice.group.empty() || group.contains(stored.session.trainee))
+                      all.push_back(practice.of(stored));
+                  });
+  return all;
 }
 
 }  // namespace palpa::evidence

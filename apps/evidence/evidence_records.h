@@ -36,15 +36,12 @@ EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const st
 /// Of an address, as it stays true in another folder: files as absolute paths.
 std::string absoluteRecords(const std::string& url);
 
-/// Trials as the pages of practice take them. `group`: the trainee's. Throws Error for a session
-/// whose description is damaged.
-progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
-                                   const std::string& group);
-
 /// Which trials a page is about; an empty text means any.
 struct PracticeChoice {
   std::string trainee, group, task;
 };
+/// Trials as the pages of practice take them, by trainee, arrival and number. Throws Error for a
+/// session whose description is damaged.
 std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,
                                                 const PracticeChoice& choice);
 

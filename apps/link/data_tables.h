@@ -1,32 +1,30 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/record/store/record_store.h"
+#include "apps/record/store/record_reading.h"
 
 namespace palpa::link {
 
-/// A further table of the store that names a trainee in each row: places in studies, answers to
-/// questionnaires.
-struct FurtherTable {
-  std::string name;
-  std::vector<std::string> columns;
-  std::vector<std::vector<record::SqlValue>> rows;
+/// Whose records are written, and where from. Tables read them row by row, so while they are
+/// written the connection is within a transaction for reading: all tables are of its moment.
+struct ExportSource {
+  record::SqlConnection& records;
+  std::vector<record::Trainee> who;  ///< by id
+  bool with_paths = false;           ///< with places of this computer: where evidence lies
 };
 
-/// What the records hold of some people.
-struct Dataset {
-  std::vector<record::Trainee> trainees;
-  std::vector<record::StoredSession> sessions;   ///< with their calibrations
-  std::vector<record::TrialWithSession> trials;  ///< with their events
-  std::vector<FurtherTable> further = {};
+/// How much that is.
+struct Extent {
+  std::size_t sessions = 0, simulated = 0, trials = 0;  ///< simulated: of the sessions
 };
-
-Dataset datasetOf(record::RecordStore& store, const std::vector<record::Trainee>& who);
+Extent extentOf(const ExportSource& source);
 
 /// What a column holds.
 struct TableColumn {
@@ -37,28 +35,37 @@ struct TableColumn {
   std::string missing;  ///< when a cell is empty; empty: never
 };
 
+using TableRow = std::vector<nlohmann::json>;  ///< null: empty
+using RowVisitor = std::function<void(const TableRow&)>;
+
+/// What it has columns for it reads when its rows are asked for, each time anew; no more than one
+/// row is held.
 struct ExportTable {
   std::string name, meaning;
   std::vector<TableColumn> columns;
-  std::vector<std::vector<nlohmann::json>> rows;  ///< null: empty
+  std::function<void(const RowVisitor&)> rows;
 };
 
 /// trainees, sessions, calibrations, trials (with every figure that this program knows or the
-/// records hold), events. People appear by pseudonym, places of this computer (where evidence lies)
-/// only `with_paths`.
-std::vector<ExportTable> tablesOf(const Dataset& data, bool with_paths);
+/// records hold), events; everything else that the store keeps about a person. People appear by
+/// pseudonym. The source must outlive the tables.
+std::vector<ExportTable> tablesOf(const ExportSource& source);
 
 /// Every table of the store, but those that are exported by name, that says whose each row is: a
 /// person's export has everything, whatever the store learnt to keep.
-std::vector<FurtherTable> furtherTables(record::RecordStore& store,
-                                        const std::vector<record::Trainee>& who);
+std::vector<ExportTable> furtherTables(const ExportSource& source);
+/// One of them, by its columns as the store names them.
+ExportTable furtherTable(
+    const std::string& name, const std::vector<std::string>& columns,
+    std::function<void(const std::function<void(const std::vector<record::SqlValue>&)>&)> rows);
 
-ExportTable asTable(const FurtherTable& further);
+/// Text goes on there, piece by piece.
+using TextSink = std::function<void(std::string_view)>;
 
 /// RFC 4180, a header row, lines end with LF; the same in every locale. JSON cells are JSON texts.
-std::string asCsv(const ExportTable& table);
+void writeCsv(const ExportTable& table, const TextSink& sink);
 /// All tables in one object, each a list of rows by column name.
-std::string asJson(const std::vector<ExportTable>& tables);
+void writeJson(const std::vector<ExportTable>& tables, const TextSink& sink);
 /// What every column of every table is: as a table itself, and for people.
 ExportTable dictionaryOf(const std::vector<ExportTable>& tables);
 std::string dictionaryAsMarkdown(const std::vector<ExportTable>& tables);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "apps/record/store/migrations.h"
@@ -43,40 +44,45 @@ nlohmann::json cellOf(const record::SqlValue& value) {
 
 }  // namespace
 
-std::vector<FurtherTable> furtherTables(record::RecordStore& store,
-                                        const std::vector<record::Trainee>& who) {
-  std::vector<FurtherTable> all;
-  for (const std::string& name : record::tableNames()) {
-    FurtherTable table{name, columnsIn(name), {}};
-    if (name == "sessions" ||
-        std::find(table.columns.begin(), table.columns.end(), "trainee") == table.columns.end())
-      continue;
-    for (const record::Trainee& person : who) {
-      const record::SqlRows rows =
-          store.connection().query("SELECT " + record::columnsOf(name) + " FROM " + name +
-                                       " WHERE trainee=$1 ORDER BY " + record::columnsOf(name),
-                                   {person.id});
-      for (std::size_t i = 0; i < rows.size(); ++i) table.rows.push_back(rows.row(i));
-    }
-    all.push_back(std::move(table));
-  }
-  return all;
-}
-
-ExportTable asTable(const FurtherTable& further) {
-  ExportTable table{further.name, "One row each, as the records keep it", {}, {}};
-  for (const std::string& name : further.columns) {
-    const auto known = kMeanings.find(name);
+ExportTable furtherTable(
+    const std::string& name, const std::vector<std::string>& columns,
+    std::function<void(const std::function<void(const std::vector<record::SqlValue>&)>&)> rows) {
+  ExportTable table{name, "One row each, as the records keep it", {}, {}};
+  for (const std::string& column : columns) {
+    const auto known = kMeanings.find(column);
     table.columns.push_back(
-        {name, known == kMeanings.end() ? "text" : known->second.unit,
+        {column, known == kMeanings.end() ? "text" : known->second.unit,
          known == kMeanings.end() ? "as the records keep it" : known->second.text, "",
          "not given"});
   }
-  for (const auto& row : further.rows) {
-    table.rows.emplace_back();
-    for (const record::SqlValue& value : row) table.rows.back().push_back(cellOf(value));
-  }
+  table.rows = [rows = std::move(rows)](const RowVisitor& visit) {
+    rows([&](const std::vector<record::SqlValue>& values) {
+      TableRow row;
+      for (const record::SqlValue& value : values) row.push_back(cellOf(value));
+      visit(row);
+    });
+  };
   return table;
+}
+
+std::vector<ExportTable> furtherTables(const ExportSource& source) {
+  std::vector<ExportTable> all;
+  for (const std::string& name : record::tableNames()) {
+    const std::vector<std::string> columns = columnsIn(name);
+    const auto whose = std::find(columns.begin(), columns.end(), "trainee");
+    if (name == "sessions" || whose == columns.end()) continue;
+    const auto at = static_cast<std::size_t>(whose - columns.begin());
+    all.push_back(furtherTable(name, columns, [&source, name, at](const auto& visit) {
+      std::set<std::string> chosen;
+      for (const record::Trainee& t : source.who) chosen.insert(t.id);
+      const std::string& names = record::columnsOf(name);
+      const auto rows =
+          source.records.cursor("SELECT " + names + " FROM " + name + " ORDER BY trainee," + names);
+      while (rows->next())
+        if (chosen.contains(std::string(rows->text(at)))) visit(rows->row());
+    }));
+  }
+  return all;
 }
 
 }  // namespace palpa::link

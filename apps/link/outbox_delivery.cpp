@@ -173,8 +173,9 @@ int takeBackDeleted(record::RecordStore& store, const Route& route, Outbox& outb
   const std::vector<Letter> told = outbox.sent(route);
   std::set<std::pair<std::string, std::int64_t>> void_now;
   if (!told.empty())
-    for (const record::TrialWithSession& t : store.trials())
+    store.eachTrial({}, [&](const record::TrialWithSession& t) {
       if (training::isVoid(t.trial.outcome)) void_now.insert({t.session.uuid, t.trial.number});
+    });
   int taken = 0;
   for (const Letter& letter : told) {
     if (!isGone(letter) && !void_now.contains({letter.session, letter.trial})) continue;

@@ -23,6 +23,7 @@ constexpr int kNice = 10, kFirstOfOurs = 3;
 
 struct ProcessState {
   char letter = 'X';
+  int threads = 0;
   std::uint64_t began = 0;
 };
 ProcessState stateOf(int pid) {
@@ -33,15 +34,17 @@ ProcessState stateOf(int pid) {
   ProcessState state;
   std::string skipped;
   fields >> state.letter;
-  for (int field = 4; field < 22; ++field) fields >> skipped;
-  fields >> state.began;
+  for (int field = 4; field < 20; ++field) fields >> skipped;
+  fields >> state.threads >> skipped >> state.began;
   return state;
 }
 
-/// 0: there is no such process, or it has ended and waits to be put away.
+/// 0: there is no such process, or it has ended and waits to be put away. One of which the first
+/// thread alone has ended holds its files, locks and sockets still.
 std::uint64_t beganAt(int pid) {
   const ProcessState state = stateOf(pid);
-  return state.letter == 'Z' || state.letter == 'X' ? 0 : state.began;
+  const bool ended = state.letter == 'X' || (state.letter == 'Z' && state.threads <= 1);
+  return ended ? 0 : state.began;
 }
 
 struct Spawning {
@@ -111,6 +114,20 @@ Companion startWithLine(const std::vector<std::string>& arguments) {
     ::close(ends[1]);
     throw;
   }
+}
+
+Spent runToEnd(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
+  const ProcessId process = start(arguments, log, false);
+  int status = 0;
+  rusage used{};
+  while (::wait4(process.pid, &status, 0, &used) < 0)
+    if (errno != EINTR) failFile("cannot be waited for", "palpa " + arguments.front(), errno);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+          seconds(used.ru_utime) + seconds(used.ru_stime),
+          1.024e-3 * static_cast<double>(used.ru_maxrss)};
 }
 
 bool isStopped(const ProcessId& process) {

@@ -27,6 +27,13 @@ struct Companion {
   int line = -1;  ///< whoever has it closes it
 };
 Companion startWithLine(const std::vector<std::string>& arguments);
+/// As `start`, waited for: what it took, by the system's own count.
+struct Spent {
+  int exit_code = -1;                   ///< -1: it was ended by a signal
+  double processor_s = 0, peak_MB = 0;  ///< peak: of memory in use at once, 1 MB = 1e6 bytes
+};
+Spent runToEnd(const std::vector<std::string>& arguments, const std::filesystem::path& log);
+
 /// It runs. A child of ours that ended is put away.
 bool runs(const ProcessId& process);
 /// Asks it to end, as Ctrl-C does.

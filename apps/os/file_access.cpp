@@ -117,6 +117,10 @@ fs::path stateFolder(const std::string& advice) {
   return folderOf("XDG_STATE_HOME", ".local/state", advice);
 }
 
+fs::path cacheFolder(const std::string& advice) {
+  return folderOf("XDG_CACHE_HOME", ".cache", advice);
+}
+
 std::string programStamp() {
   std::error_code none;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
@@ -127,14 +131,29 @@ std::string programStamp() {
 
 bool errorsGoToTerminal() { return ::isatty(STDERR_FILENO) != 0; }
 
+namespace {
+
+/// What is open is still what has this name.
+bool isAt(const fs::path& file, int descriptor) {
+  struct stat open {
+  }, named{};
+  return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &named) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+}  // namespace
+
 std::unique_ptr<FileLock> FileLock::exclusive(const std::filesystem::path& file, Missing missing) {
   const int flags = missing == Missing::is_made ? O_RDWR | O_CREAT | O_NOFOLLOW : O_RDONLY;
-  const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0600);
-  if (descriptor < 0) return nullptr;
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
-    return std::unique_ptr<FileLock>(new FileLock(descriptor));
-  ::close(descriptor);
-  return nullptr;
+  for (;;) {
+    const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0600);
+    if (descriptor < 0) return nullptr;
+    const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    if (locked && isAt(file, descriptor))
+      return std::unique_ptr<FileLock>(new FileLock(descriptor));
+    ::close(descriptor);
+    if (!locked) return nullptr;
+  }
 }
 
 FileLock::~FileLock() { ::close(descriptor_); }

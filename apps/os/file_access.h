@@ -49,6 +49,8 @@ class TemporaryFolder {
 std::filesystem::path dataFolder(const std::string& advice);
 /// For what a program remembers between its runs: $XDG_STATE_HOME, else ~/.local/state.
 std::filesystem::path stateFolder(const std::string& advice);
+/// For what it can make again: $XDG_CACHE_HOME, else ~/.cache.
+std::filesystem::path cacheFolder(const std::string& advice);
 
 /// Tells builds of a program apart: where the running one lies, its size, when it was last written.
 std::string programStamp();
@@ -61,7 +63,8 @@ bool errorsGoToTerminal();
 class FileLock {
  public:
   enum class Missing { fails, is_made };  ///< made: readable by this user alone
-  /// Never waits. Null where another holds it, or the file cannot be opened.
+  /// Never waits. Null where another holds it, or the file cannot be opened. Whoever holds it may
+  /// remove the file: a lock on a file that has lost its name is nobody's.
   static std::unique_ptr<FileLock> exclusive(const std::filesystem::path& file, Missing missing);
   ~FileLock();
   FileLock(const FileLock&) = delete;

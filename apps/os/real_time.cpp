@@ -105,6 +105,8 @@ void giveLargeMemoryBack() {
   mallopt(M_TRIM_THRESHOLD, kSpareMemory);
 }
 
+void giveFreeMemoryBack() { malloc_trim(0); }
+
 void giveWay() { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kServerNice); }
 
 }  // namespace palpa::os

@@ -44,4 +44,8 @@ void shareMemoryPools();
 /// was at once: in a session of hours, at every hitch of the computer, a little more.
 void giveLargeMemoryBack();
 
+/// What is free now goes back to the system, also between pieces that are in use. Some milliseconds
+/// in which other threads may wait for memory.
+void giveFreeMemoryBack();
+
 }  // namespace palpa::os

@@ -30,6 +30,10 @@ std::int64_t monotonicResolution_ns() noexcept {
   return nanoseconds(t);
 }
 
+std::int64_t threadsProcessorTime_ns() noexcept { return timeOf(CLOCK_THREAD_CPUTIME_ID); }
+
+std::int64_t processorTime_ns() noexcept { return timeOf(CLOCK_PROCESS_CPUTIME_ID); }
+
 void sleepUntilMonotonic(std::int64_t t_ns) noexcept {
   const timespec until{static_cast<time_t>(t_ns / kSecond), static_cast<long>(t_ns % kSecond)};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {

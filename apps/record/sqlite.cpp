@@ -152,8 +152,12 @@ void Statement::run() {
   sqlite3_reset(statement_.get());
 }
 
-int Statement::indexOf(const std::string& name) const {
-  return sqlite3_bind_parameter_index(statement_.get(), name.c_str());
+/// Names are searched one after the other; most stand in the order of their numbers.
+int Statement::indexOf(int number) const {
+  const std::string name = '$' + std::to_string(number);
+  const char* there = sqlite3_bind_parameter_name(statement_.get(), number);
+  return there && there == name ? number
+                                : sqlite3_bind_parameter_index(statement_.get(), name.c_str());
 }
 
 void Statement::bindOne(int index, std::monostate) {
@@ -188,10 +192,10 @@ double Statement::real(int column) const {
                         : sqlite3_column_double(statement_.get(), column);
 }
 
-std::string Statement::text(int column) const {
+std::string_view Statement::textView(int column) const {
   const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
   const int size = sqlite3_column_bytes(statement_.get(), column);
-  return data ? std::string(data, static_cast<std::size_t>(size)) : std::string();
+  return data ? std::string_view(data, static_cast<std::size_t>(size)) : std::string_view();
 }
 
 ByteView Statement::blob(int column) const {

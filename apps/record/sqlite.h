@@ -66,25 +66,26 @@ class Statement {
     (bindOne(++index, values), ...);
     return *this;
   }
-  /// A parameter by its name, "$3"; nothing where the statement does not use it.
+  /// The parameter "$3" of number 3; nothing where the statement does not use it.
   template <typename Value>
-  void bindNamed(const std::string& name, const Value& value) {
-    if (const int index = indexOf(name); index > 0) bindOne(index, value);
+  void bindNumbered(int number, const Value& value) {
+    if (const int index = indexOf(number); index > 0) bindOne(index, value);
   }
   bool step();  ///< true: a row is there
   void run();   ///< for statements without rows
 
   std::int64_t integer(int column) const;
   double real(int column) const;  ///< NULL (how SQLite stores not-a-number) becomes NaN
-  std::string text(int column) const;
-  ByteView blob(int column) const;  ///< valid until the next step
+  std::string text(int column) const { return std::string(textView(column)); }
+  std::string_view textView(int column) const;  ///< valid until the next step
+  ByteView blob(int column) const;              ///< valid until the next step
   bool isNull(int column) const;
   int columns() const;
   /// As it is stored; bytes as a text.
   std::variant<std::monostate, std::int64_t, double, std::string> value(int column) const;
 
  private:
-  int indexOf(const std::string& name) const;  ///< 0: there is none
+  int indexOf(int number) const;  ///< 0: there is none
   void rewind();
   void bindOne(int index, std::monostate null);
   void bindOne(int index, std::int64_t value);

@@ -29,6 +29,15 @@ void rest(std::chrono::nanoseconds time) noexcept {
   clock.sleepUntil(time.count());
 }
 
+bool comesTrue(std::chrono::milliseconds most, const std::function<bool()>& question) {
+  constexpr std::chrono::milliseconds kBetween{100};
+  for (auto left = most; left > kBetween; left -= kBetween) {
+    if (question()) return true;
+    rest(kBetween);
+  }
+  return question();
+}
+
 std::string dateText(const char* pattern, Zone zone) {
   const std::time_t now = static_cast<std::time_t>(dateNow() / kSecond);
   std::tm parts{};

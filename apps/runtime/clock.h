@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace palpa::runtime {
@@ -53,6 +54,13 @@ struct ServingClock {
 
 /// The calling thread rests this long.
 void rest(std::chrono::nanoseconds time) noexcept;
+
+/// Asks ten times a second until the answer is yes, for `most` at most. The last answer.
+bool comesTrue(std::chrono::milliseconds most, const std::function<bool()>& question);
+
+/// How long a program that was killed may hold its locks and its port: the system takes its memory
+/// and its threads apart first.
+inline constexpr std::chrono::seconds kKilledLetsGo{3};
 
 enum class Zone { utc, local };
 /// The computer's date now, in strftime's words.

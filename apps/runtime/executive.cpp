@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/os/real_time.h"
+#include "apps/os/system_time.h"
 
 namespace palpa::runtime {
 
@@ -65,7 +66,14 @@ class VirtualClock final : public Clock {
 };
 
 class VirtualExecutive final : public Executive {
+  struct DueActivity {
+    std::int64_t due_ns;
+    int priority;
+    Activity* activity;
+  };
+
  public:
+  explicit VirtualExecutive(StepCosts* costs) : costs_(costs) {}
   TimeMode mode() const override { return TimeMode::virtual_time; }
   const Clock& clock() const override { return clock_; }
   void add(Activity& activity, const ThreadPolicy& policy) override {
@@ -75,7 +83,9 @@ class VirtualExecutive final : public Executive {
 
   void run() override {
     try {
-      steps();
+      costs_ ? measuredSteps() : steps([](const DueActivity& due, std::int64_t now_ns) {
+        return due.activity->step(now_ns);
+      });
     } catch (...) {
       endAll();
       throw;
@@ -88,7 +98,20 @@ class VirtualExecutive final : public Executive {
     for (const DueActivity& entry : entries_) entry.activity->end();
   }
 
-  void steps() {
+  /// A step costs what has passed since the one before it ended.
+  void measuredSteps() {
+    std::int64_t before_ns = os::threadsProcessorTime_ns();
+    steps([&](const DueActivity& due, std::int64_t now_ns) {
+      const std::int64_t next_ns = due.activity->step(now_ns);
+      const std::int64_t after_ns = os::threadsProcessorTime_ns();
+      (*costs_)[due.activity->name()] += after_ns - before_ns;
+      before_ns = after_ns;
+      return next_ns;
+    });
+  }
+
+  template <class Step>
+  void steps(Step step) {
     stopped_ = false;
     while (!stopped_) {
       // A handful of activities: a scan is simpler than a heap, and the order is plain to see.
@@ -98,15 +121,11 @@ class VirtualExecutive final : public Executive {
           });
       if (next == entries_.end() || next->due_ns == kNever) return;
       clock_.now_ns = std::max(clock_.now_ns, next->due_ns);
-      next->due_ns = next->activity->step(clock_.now_ns);
+      next->due_ns = step(*next, clock_.now_ns);
     }
   }
 
-  struct DueActivity {
-    std::int64_t due_ns;
-    int priority;
-    Activity* activity;
-  };
+  StepCosts* const costs_;
   VirtualClock clock_;
   std::vector<DueActivity> entries_;
   bool stopped_ = false;
@@ -114,7 +133,9 @@ class VirtualExecutive final : public Executive {
 
 }  // namespace
 
-std::unique_ptr<Executive> makeVirtualExecutive() { return std::make_unique<VirtualExecutive>(); }
+std::unique_ptr<Executive> makeVirtualExecutive(StepCosts* costs) {
+  return std::make_unique<VirtualExecutive>(costs);
+}
 
 namespace {
 

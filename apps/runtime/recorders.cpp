@@ -8,12 +8,17 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
+#include "apps/os/real_time.h"
 #include "ar/codecs/codecs.h"
 
 namespace palpa::runtime {
 
 std::int64_t RecorderActivity::step(std::int64_t now_ns) {
   drain();
+  if (now_ns >= gives_back_ns_) {
+    os::giveFreeMemoryBack();
+    gives_back_ns_ = now_ns + kKeepsFree_ns;
+  }
   return now_ns + period_ns_;
 }
 

@@ -6,12 +6,14 @@
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
+#include "apps/runtime/clock.h"
 #include "haptics/loop/tick_config.h"
 
 namespace palpa::runtime {
 
 /// RECORDER: drains what the others queued into the session's evidence and commits it every 100
-/// ticks.
+/// ticks. Once a minute of the session, memory that is free goes back to the system: a session of
+/// hours would keep a little more at every hitch of the computer. It is the thread that may wait.
 class RecorderActivity final : public Activity {
  public:
   RecorderActivity(Bus& bus, FlightSink& sink,
@@ -31,10 +33,12 @@ class RecorderActivity final : public Activity {
  private:
   /// half of what a killed process may lose; the queue holds 8192
   static constexpr std::int64_t kTicks = 100;
+  static constexpr std::int64_t kKeepsFree_ns = 60 * kSecond;
   void drain();
   Bus& bus_;
   FlightSink& sink_;
   const std::int64_t period_ns_;
+  std::int64_t gives_back_ns_ = kKeepsFree_ns;
 };
 
 /// A session's pictures beside their poses: "camera.mjpeg", JPEG after JPEG (any player shows it;

@@ -12,6 +12,7 @@
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/os/file_access.h"
+#include "apps/runtime/clock.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
@@ -128,13 +129,16 @@ fs::path evidenceOf(const fs::path& given) {
   return file;
 }
 
-void requireNotRunning(const fs::path& folder) {
-  bool held = false;
+bool isHeld(const fs::path& folder) {
   try {
-    held = begunSessions().isHeld(noteNameOf(folder));
+    return begunSessions().isHeld(noteNameOf(folder));
   } catch (const Error&) {  // nothing was noted
+    return false;
   }
-  if (held)
+}
+
+void requireNotRunning(const fs::path& folder) {
+  if (!runtime::comesTrue(runtime::kKilledLetsGo, [&] { return !isHeld(folder); }))
     throw UsageError("is still running, or is being finished", folder.string(),
                      "Wait until it is over; Escape or Ctrl-C ends a session with its report");
 }

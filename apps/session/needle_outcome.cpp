@@ -182,6 +182,7 @@ void writeNeedleResults(const ReportHead& head,
       scored.push_back(trial.assessment);
   const std::filesystem::path folder = evidence.parent_path();
   report::writeTrialsCsv(head.user_id, scored, folder / "trials.csv", head.doses);
+  if (!head.page) return;
   report::SessionReport page;
   page.title = head.title;
   page.trainee = head.trainee;
@@ -211,6 +212,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
 
   sayResult(result);
   if (!world.not_scored.empty()) std::printf("Not scored: %s\n", world.not_scored.c_str());
+  if (!options.report) return;
   std::printf("Written to %s:\n", folder.string().c_str());
   std::printf("  report.html     what happened, with reasons and pictures: open this first\n");
   std::printf(

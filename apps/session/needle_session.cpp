@@ -76,8 +76,8 @@ int skinOf(const anatomy::Patient& patient) {
 class NeedleSession {
  public:
   NeedleSession(const SessionOptions& options, NeedleWorld& world,
-                const std::filesystem::path& folder)
-      : options_(options), world_(world), folder_(folder) {
+                const std::filesystem::path& folder, SessionCost* cost)
+      : options_(options), world_(world), folder_(folder), cost_(cost) {
     MouseHand* mouse = frame_.devices().mouse();
     if (mouse && head_.view)
       head_.view->onHeld([this, mouse](const headset::HeldController& held) {
@@ -159,6 +159,7 @@ class NeedleSession {
   const SessionOptions& options_;
   NeedleWorld& world_;
   const std::filesystem::path folder_;
+  SessionCost* const cost_;
   task_needle::TaskChannels channels_{options_.fast ? runtime::TimeMode::virtual_time
                                                     : runtime::TimeMode::real};
   task_needle::NearMissWatch near_{world_.patient, world_.query};
@@ -168,7 +169,8 @@ class NeedleSession {
        .patient = world_.patient,
        .X_WA = world_.X_WA,
        .tick = tickConfig(options_, world_),
-       .near = [this](const haptics::FlightRecord& record) { return nearMiss(record); }},
+       .near = [this](const haptics::FlightRecord& record) { return nearMiss(record); },
+       .cost = cost_},
       needleHands(options_, world_),
       channels_,
       folder_};
@@ -181,8 +183,8 @@ class NeedleSession {
 }  // namespace
 
 SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world,
-                               const std::filesystem::path& folder) {
-  return std::make_unique<NeedleSession>(options, world, folder)->run();
+                               const std::filesystem::path& folder, SessionCost* cost) {
+  return std::make_unique<NeedleSession>(options, world, folder, cost)->run();
 }
 
 }  // namespace palpa::session

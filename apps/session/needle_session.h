@@ -16,8 +16,9 @@ struct SessionResult : SessionRun {
 
 /// Runs the trials: station, bench or person, camera, task, scene, recorder. Leaves session.palpa
 /// and view-*.png in `folder`.
+/// `cost`: what it takes of the processor's time, where that is wanted.
 SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world,
-                               const std::filesystem::path& folder);
+                               const std::filesystem::path& folder, SessionCost* cost = nullptr);
 
 /// trials.csv and report.html beside the evidence, from trials as the session judged them or as
 /// they were judged again.

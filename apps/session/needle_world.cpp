@@ -7,7 +7,10 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <string_view>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/random.h"
@@ -111,7 +114,7 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
       task(makeTask(options)),
       needle(station::readNeedleFile(task.materials)),
       patient(makePatient(options, task)),
-      query(patient),
+      query(patient, anatomy::SurfaceQuery::Curvature::left_out),
       geometry(patient, query),
       landmarks(task.block ? std::nullopt : std::make_optional<anatomy::LandmarkFrame>(patient)) {
   for (const station::RealThing& thing : station.things) real_things.push_back(meshOf(thing));
@@ -200,11 +203,53 @@ std::string textOf(const anatomy::PatientParameters& p) {
   return text.str();
 }
 
-std::optional<std::filesystem::path> placeOf(const anatomy::PatientParameters& parameters) {
-  const char* folder = std::getenv("PALPA_CACHE");
-  if (!folder || !*folder) return std::nullopt;
-  const std::string name = sha256(os::programStamp() + '\n' + textOf(parameters));
-  return std::filesystem::path(folder) / "patients" / (name + ".glb");
+/// Nullopt: nothing is kept, as asked for or because this user has no folder.
+std::optional<std::filesystem::path> folderOfKept() {
+  if (const char* folder = std::getenv("PALPA_CACHE"); folder && *folder)
+    return folder == std::string_view("off")
+               ? std::nullopt
+               : std::optional(std::filesystem::path(folder) / "patients");
+  try {
+    return os::cacheFolder("") / "palpa" / "patients";
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+std::string nameOfKept(const anatomy::PatientParameters& parameters) {
+  return sha256(os::programStamp() + '\n' + textOf(parameters)) + ".glb";
+}
+
+/// One of ours, or what a program left of one that it could not finish; nothing else is removed.
+bool isOfKept(const std::filesystem::path& file) {
+  std::string name = file.filename().string();
+  const bool unfinished = name[0] == '.';
+  if (unfinished) name.erase(0, 1);
+  const std::string ending = name.substr(std::min(kDigest, name.size()));
+  return name.find_first_not_of("0123456789abcdef") == kDigest &&
+         (unfinished ? ending.starts_with(".glb.part-") : ending == ".glb");
+}
+
+struct KeptFile {
+  std::filesystem::file_time_type written;
+  std::uintmax_t bytes;
+  std::filesystem::path path;
+};
+
+/// Without those that another program has just removed.
+std::vector<KeptFile> keptIn(const std::filesystem::path& folder) {
+  std::vector<KeptFile> files;
+  for (const std::filesystem::path& path : entriesOf(folder)) {
+    std::error_code gone;
+    if (!isOfKept(path) || !std::filesystem::is_regular_file(path, gone)) continue;
+    const auto written = std::filesystem::last_write_time(path, gone);
+    const std::uintmax_t bytes = gone ? 0 : std::filesystem::file_size(path, gone);
+    if (!gone) files.push_back({written, bytes, path});
+  }
+  std::sort(files.begin(), files.end(), [](const KeptFile& a, const KeptFile& b) {
+    return std::tie(a.written, a.path) < std::tie(b.written, b.path);
+  });
+  return files;
 }
 
 std::optional<anatomy::Patient> kept(const std::filesystem::path& file) {
@@ -219,19 +264,33 @@ void keep(const anatomy::Patient& patient, const std::filesystem::path& file) {
   os::makeFolders(file.parent_path());  // writing says what is wrong
   const std::string glb = anatomy::glbOf(patient, file.string());
   try {
-    writeWhole(file, sha256(glb) + '\n' + glb, Lasts::no);
+    writeWhole(file, sha256(glb) + '\n' + glb, Lasts::no, Readers::owner);
   } catch (const Error&) {  // a full disk, a folder that is not ours: the next one builds it anew
   }
 }
 
 }  // namespace
 
+void boundKept(const std::filesystem::path& folder, std::uintmax_t most_bytes) {
+  const std::vector<KeptFile> files = keptIn(folder);
+  std::uintmax_t bytes = 0;
+  for (const KeptFile& file : files) bytes += file.bytes;
+  for (const KeptFile& file : files) {
+    if (bytes <= most_bytes) return;
+    std::error_code gone;  // another program was sooner
+    std::filesystem::remove(file.path, gone);
+    bytes -= file.bytes;
+  }
+}
+
 anatomy::Patient keptPatient(const anatomy::PatientParameters& parameters) {
-  const std::optional<std::filesystem::path> place = placeOf(parameters);
-  if (!place) return anatomy::buildPatient(parameters);
-  if (std::optional<anatomy::Patient> patient = kept(*place)) return *std::move(patient);
+  const std::optional<std::filesystem::path> folder = folderOfKept();
+  if (!folder) return anatomy::buildPatient(parameters);
+  const std::filesystem::path file = *folder / nameOfKept(parameters);
+  if (std::optional<anatomy::Patient> patient = kept(file)) return *std::move(patient);
   anatomy::Patient patient = anatomy::buildPatient(parameters);
-  keep(patient, *place);
+  keep(patient, file);
+  boundKept(*folder, kMostKept_bytes);
   return patient;
 }
 

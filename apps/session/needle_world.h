@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -67,13 +69,21 @@ ReportHead headOf(const SessionOptions& options, const NeedleWorld& world);
 /// What the evidence says of the session.
 record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world);
 
-/// The patient that `anatomy::buildPatient` makes of these parameters, the same to the bit. Where
-/// $PALPA_CACHE names a folder, a patient that an earlier run built is read from there instead, and
-/// one that is built is kept there: a second less for every session. The kept file's name is the
-/// SHA-256 of this very program (its place, size and age) and of the parameters; its first line is
-/// that of the rest, so what is damaged is built anew. Throws Error as `buildPatient` does; a
-/// folder that cannot be read or written is no error. Nothing is ever removed from the folder, so
-/// that programs can share it; it may be emptied at any time.
+/// The patient that `anatomy::buildPatient` makes of these parameters, the same to the bit. One
+/// that is built is kept, and an earlier run's is read: two seconds less for every session. Kept in
+/// "patients" in the folder that $PALPA_CACHE names ("off": nowhere), else in palpa in this user's
+/// folder of caches; readable by the user alone. The file's name is the SHA-256 of this very
+/// program (its place, size and age) and of the parameters; its first line is that of the rest, so
+/// what is damaged is built anew. Throws Error as `buildPatient` does; a folder that cannot be read
+/// or written is no error. Any number of programs may share it, and it may be emptied at any time.
+/// Only drawn people are kept: an imported patient is somebody, and is read from the file that was
+/// named.
 anatomy::Patient keptPatient(const anatomy::PatientParameters& parameters);
+
+/// Some seventy patients.
+inline constexpr std::uintmax_t kMostKept_bytes = 512u << 20;
+/// Removes the oldest kept patients, and what programs could not finish, until no more bytes are
+/// left in the folder. Other files stay. What another program removes meanwhile is no error.
+void boundKept(const std::filesystem::path& folder, std::uintmax_t most_bytes);
 
 }  // namespace palpa::session

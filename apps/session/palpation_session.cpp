@@ -266,6 +266,7 @@ void writePalpationResults(const ReportHead& head,
       judged.push_back(trial.assessment);
   const std::filesystem::path folder = evidence.parent_path();
   report::writePalpationCsv(head.user_id, judged, folder / "trials.csv", head.doses);
+  if (!head.page) return;
   report::PalpationReport page;
   page.title = head.title;
   page.trainee = head.trainee;
@@ -293,6 +294,7 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
                 a.facts.simulated ? ", simulated" : "",
                 trial.reason.empty() ? a.summary.c_str() : trial.reason.c_str());
   }
+  if (!options.report) return;
   std::printf("Written to %s:\n", folder.string().c_str());
   std::printf(
       "  report.html     what was found and felt, with reasons and pictures: open this first\n");

@@ -217,6 +217,7 @@ void writeSearchResults(const ReportHead& head,
   }
   const std::filesystem::path folder = evidence.parent_path();
   report::writeSearchCsv(head.user_id, written, folder / "trials.csv", head.doses);
+  if (!head.page) return;
   page.title = head.title;
   page.trainee = head.trainee;
   page.simulated = head.simulated;
@@ -245,6 +246,7 @@ void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
   for (const assess::SearchTally& tally : assess::talliesOf(trials))
     std::printf("%s%s%s: found in %d of %d episodes\n", tally.block.c_str(),
                 tally.block.empty() ? "" : ", ", name(tally.mode), tally.found, tally.episodes);
+  if (!options.report) return;
   std::printf("Written to %s:\n", folder.string().c_str());
   std::printf("  report.html     how often and how fast the target was found: open this first\n");
   std::printf(

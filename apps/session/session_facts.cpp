@@ -197,6 +197,7 @@ ReportHead headOf(const SessionOptions& options, const std::string& title,
   head.user_id = options.trainee;
   head.simulated = simulated;
   head.assessed = options.assess;
+  head.page = options.report;
   head.taxonomy = taxonomyFacts(taxonomy);
   return head;
 }

@@ -37,6 +37,7 @@ struct ReportHead {
   std::string user_id;                ///< the same in trials.csv: the pseudonym
   bool simulated = false;             ///< operator or bench are
   bool assessed = false;              ///< in an assessment
+  bool page = true;                   ///< report.html is made
   std::string force_note, unit_note;  ///< empty: none
   double too_hard_N = 0;              ///< of a comparison
   std::vector<report::Fact> taxonomy, station;

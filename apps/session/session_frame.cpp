@@ -7,6 +7,7 @@
 #include "anatomy/base/uuid.h"
 #include "apps/live/wire.h"
 #include "apps/os/child_process.h"
+#include "apps/os/system_time.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/recorders.h"
 #include "apps/session/session_facts.h"
@@ -68,6 +69,32 @@ std::string keepEvidence(runtime::RecorderActivity& recorder, record::SessionWri
   std::_Exit(EXIT_FAILURE);
 }
 
+runtime::StepCosts* stepsOf(SessionCost* cost) {
+  return cost && cost->by_stage ? &cost->steps : nullptr;
+}
+
+runtime::CameraActivity::Exposer timed(runtime::CameraActivity::Exposer exposer,
+                                       SessionCost* cost) {
+  if (!cost || !cost->by_stage) return exposer;
+  return [exposer = std::move(exposer), cost](std::int64_t now_ns, std::uint64_t number) {
+    return [exposure = exposer(now_ns, number), cost] {
+      const std::int64_t before_ns = os::threadsProcessorTime_ns();
+      std::optional<ar::Frame> frame = exposure();
+      cost->drawing_ns += os::threadsProcessorTime_ns() - before_ns;
+      return frame;
+    };
+  };
+}
+
+void runTimed(runtime::Executive& executive, SessionCost* cost) {
+  if (!cost) return executive.run();
+  cost->started_ns = os::processorTime_ns();
+  const std::int64_t thread_ns = os::threadsProcessorTime_ns();
+  executive.run();
+  cost->thread_ns = os::threadsProcessorTime_ns() - thread_ns;
+  cost->run_ns = os::processorTime_ns() - cost->started_ns;
+}
+
 /// While it lives, a window that is gone ends the session and not the program.
 class WindowWatch {
  public:
@@ -97,7 +124,8 @@ SessionFrame::SessionFrame(const SessionOptions& options, const World& world,
       pictures_(options, world.station),
       stage_(options.no_views ? DesktopStage{}
                               : makeStage(options, world.patient, window_, world.fixed_views)),
-      executive_(options.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive()),
+      executive_(options.fast ? runtime::makeVirtualExecutive(stepsOf(world.cost))
+                              : runtime::makeRealExecutive()),
       mode_(executive_->mode()),
       stop_key_(window_ && mode_ == runtime::TimeMode::real ? stage_.context->stopKey() : nullptr),
       bus_(mode_),
@@ -168,8 +196,8 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
                              record::SessionInfo info, runtime::GeometryActivity* geometry) {
   const std::unique_ptr<runtime::Activity> haptic = loop(geometry);
   runtime::CameraActivity camera(
-      bus_, pictures_.exposer(devices_.bench(), executive_->clock()), pictures_.board(),
-      pictures_.camera(), pictures_.settings(mode_, devices_.bench()),
+      bus_, timed(pictures_.exposer(devices_.bench(), executive_->clock()), world_.cost),
+      pictures_.board(), pictures_.camera(), pictures_.settings(mode_, devices_.bench()),
       [this, look = pictures_.observer(devices_.bench())](const runtime::CameraView& view) {
         look(view);
         if (video_) video_->add(view);
@@ -220,7 +248,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
       },
       kEndPatience);
   try {
-    executive_->run();
+    runTimed(*executive_, world_.cost);
   } catch (...) {
     keepEvidence(recorder, writer);  // the fault that ended the session is told, and no other
     throw;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -40,6 +42,17 @@ struct SessionRun {
   bool quit = false;
 };
 
+/// What a session took of the processor's time, ns; for `palpa bench session` alone.
+struct SessionCost {
+  bool by_stage = false;        ///< asked for: `steps` and `drawing_ns`, which cost something
+  std::int64_t started_ns = 0;  ///< of the whole process, at the first step
+  std::int64_t run_ns = 0;      ///< from the first step to the last, all threads
+  std::int64_t thread_ns = 0;   ///< of these, the executive's own
+  runtime::StepCosts steps;     ///< of these, each activity's
+  /// Of the thread beside it: the bench's pictures until they are drawn
+  std::atomic<std::int64_t> drawing_ns{0};
+};
+
 /// Every part of a session but its task and what that shows, made in the order in which one needs
 /// the other. A task makes its own activities with these parts, and runs.
 class SessionFrame {
@@ -53,7 +66,8 @@ class SessionFrame {
     std::optional<haptics::PairConfig> pair = {};
     bool fixed_views = true;
     const runtime::FloorSource* floors = nullptr;  ///< of a search
-    live::NearMiss near = {};  ///< told to whoever looks on; empty: nothing is near
+    live::NearMiss near = {};     ///< told to whoever looks on; empty: nothing is near
+    SessionCost* cost = nullptr;  ///< where it is wanted, in virtual time
   };
   SessionFrame(const SessionOptions& options, const World& world, SessionDevices::Hands hands,
                trial::Channels& channels, const std::filesystem::path& folder);

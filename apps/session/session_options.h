@@ -111,7 +111,11 @@ struct SessionOptions {
   bool assess = false;   ///< assessment: every aid is off
   bool augment = false;  ///< needle, palpation: the task's augmentations add force
   StudyStep study;
-  std::string uuid;  ///< of the session; empty: made when it begins
+  std::string uuid;    ///< of the session; empty: made when it begins
+  bool report = true;  ///< report.html is made
+  /// false: whoever holds it looks after it and begins it anew where its program dies; no note for
+  /// `palpa finish`
+  bool noted = true;
   LearnerOptions learner;
 };
 

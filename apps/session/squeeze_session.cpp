@@ -14,8 +14,8 @@
 #include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
 #include "apps/task_squeeze/squeeze_scene.h"
+#include "apps/twin/feeling_hands.h"
 #include "apps/twin/soft_samples.h"
-#include "apps/twin/squeezing_hands.h"
 
 namespace palpa::session {
 namespace {
@@ -169,6 +169,7 @@ void writeSqueezeResults(const ReportHead& head,
   }
   const std::filesystem::path folder = evidence.parent_path();
   report::writeSqueezeCsv(head.user_id, scored, folder / "trials.csv");
+  if (!head.page) return;
   page.title = head.title;
   page.trainee = head.trainee;
   page.simulated = head.simulated;
@@ -190,6 +191,7 @@ void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& worl
     std::printf("Trial %d (%s, simulated): %s\n", trial.trial.trial,
                 training::nameOf(trial.trial.role).c_str(),
                 trial.reason.empty() ? summaryOf(trial.trial).c_str() : trial.reason.c_str());
+  if (!options.report) return;
   std::printf("Written to %s:\n", folder.string().c_str());
   std::printf("  report.html     what was told apart, and how well: open this first\n");
   std::printf(

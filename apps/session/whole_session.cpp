@@ -1,5 +1,7 @@
 #include "apps/session/whole_session.h"
 
+#include <optional>
+
 #include "anatomy/base/error.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
@@ -25,13 +27,14 @@ SessionLeft heldIn(const SessionOptions& options, Hold hold) {
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();
   try {
-    const BegunSession begun(folder);
+    std::optional<BegunSession> begun;
+    if (options.noted) begun.emplace(folder);
     const bool quit = hold(folder);
     output.keep();
     deliverSession(options, folder);
     return {folder, quit};
   } catch (const std::exception& e) {
-    if (!output.hasOlderSession()) reportFailed(folder, e.what());
+    if (options.noted && !output.hasOlderSession()) reportFailed(folder, e.what());
     throw;
   }
 }

@@ -3,9 +3,9 @@
 #include <functional>
 #include <memory>
 
+#include "apps/twin/feeling_hands.h"
 #include "apps/twin/hand.h"
 #include "apps/twin/operator.h"
-#include "apps/twin/searching_hand.h"
 
 namespace palpa::twin {
 

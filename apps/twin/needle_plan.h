@@ -19,6 +19,18 @@ struct VisibleAnatomy {
   double most_lean = 1;  ///< rad, toward the bone: the middle half of the vein as it was seen
 };
 
+/// Where somebody who has studied a patient's pictures would meet the vein, in A, metres: on the
+/// vein's axis, as near to `guess_A` (where it lies in the mean anatomy) as a straight needle from
+/// `entry_A` comes that stays 2 mm off the clavicle, 3 mm off the pleura before the vein, and meets
+/// the vein first [chosen]. Where no such way is seen: the middle of the vein nearest to the guess.
+/// Without a vein: the guess.
+struct SeenVein {
+  Vec3 aim_A;
+  double radius;  ///< m, of the vein there; 0 where none is seen
+};
+SeenVein aimByPictures(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query,
+                       const Vec3& entry_A, const Vec3& guess_A);
+
 /// Where a simulated operator means the needle to go in one trial, by what can be seen and palpated
 /// and with the own mistakes, drawn for each trial from its seed. Frame A; unit directions.
 class NeedlePlan {

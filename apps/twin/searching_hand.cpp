@@ -1,4 +1,4 @@
-#include "apps/twin/searching_hand.h"
+#include "apps/twin/feeling_hands.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "apps/twin/squeezing_hands.h"
+#include "apps/twin/feeling_hands.h"
 
 #include <algorithm>
 #include <cmath>

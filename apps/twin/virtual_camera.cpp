@@ -43,8 +43,16 @@ cv::Mat lightFor(const CameraModel& camera, double exposure) {
   return gain;
 }
 
-/// Texels that the border repeats need no larger numbers.
-float within(float texel) { return std::min(std::max(texel, -100.F), 20000.F); }
+/// Light, then noise of this sign, in 1/16 gray levels.
+void exposeRow(const std::uint16_t* __restrict gain, const std::int16_t* __restrict noise, int sign,
+               std::size_t count, unsigned char* __restrict pixel) {
+  for (std::size_t u = 0; u < count; ++u) {
+    const auto lit =
+        static_cast<std::int32_t>(std::uint32_t{std::uint16_t{pixel[u]}} * std::uint32_t{gain[u]});
+    const int sixteenths = (lit >> 4) + (sign < 0 ? -noise[u] : noise[u]);
+    pixel[u] = static_cast<unsigned char>(std::clamp((sixteenths + 8) >> 4, 0, 255));
+  }
+}
 
 void check(const VirtualCameraSettings& s) {
   const auto between = [](double x, double low, double high) { return x >= low && x <= high; };
@@ -70,47 +78,43 @@ VirtualCamera::VirtualCamera(const CameraModel& truth, const ar::TagGridSpec& bo
                               settings.noise_sigma * kNoiseUnit, kBank);
   const std::uint64_t table = picture::randomBits(seed, kTableStream);
   if (scene.ground == VirtualScene::Ground::kTableWithBoard)
-    textures_ = picture::textureSeries(
-        board.tag_size, [&](double texel) { return picture::drawTable(board, texel, table); });
+    textures_ = picture::TextureSeries(board.tag_size, [board, table](double texel) {
+      return picture::drawTable(board, texel, table);
+    });
   else if (scene.ground == VirtualScene::Ground::kBareTable)
-    textures_ = {{picture::drawBareTable(board, kBareTexel, table), kBareTexel}};
+    textures_ = picture::TextureSeries::ofOne(kBareTexel, [board, table](double texel) {
+      return picture::drawBareTable(board, texel, table);
+    });
   else
     wall_ = picture::drawWall(ray_x_, ray_y_, kWallDepth, picture::randomBits(seed, kWallStream));
   if (!scene.plates.empty()) blocks_ = picture::rayBlocks(ray_x_, ray_y_);
   for (const ar::TagGridSpec& plate : scene.plates) {
     ar::validate(plate, "plate of the virtual camera");
-    const auto draw = [&](double texel) { return picture::drawSheet(plate, texel); };
-    plates_.push_back({ar::sheetSize(plate), picture::textureSeries(plate.tag_size, draw)});
+    const auto draw = [plate](double texel) { return picture::drawSheet(plate, texel); };
+    plates_.push_back({ar::sheetSize(plate), picture::TextureSeries(plate.tag_size, draw)});
   }
 }
 
 cv::Mat VirtualCamera::lookUp(const picture::GrayTexture& texture, const Mat3& ray_to_plane,
                               const cv::Rect& region) const {
   const Eigen::Matrix3f H = (picture::toTexel(texture) * ray_to_plane).cast<float>();
-  cv::Mat column(region.size(), CV_32F), row(region.size(), CV_32F);
+  cv::Mat seen(region.size(), CV_8U);
+  std::vector<std::int32_t> column(std::size_t(region.width)), row(column.size());
   for (int v = 0; v < region.height; ++v) {
-    const float* x = ray_x_.ptr<float>(region.y + v) + region.x;
-    const float* y = ray_y_.ptr<float>(region.y + v) + region.x;
-    float *to_column = column.ptr<float>(v), *to_row = row.ptr<float>(v);
-    for (int u = 0; u < region.width; ++u) {  // no branch, so that it runs on vectors
-      const float w = H(2, 0) * x[u] + H(2, 1) * y[u] + H(2, 2);
-      const float inverse = 1 / std::max(w, 1e-6F);
-      const float k = w > 1e-6F ? inverse : 0.F;
-      to_column[u] = within((H(0, 0) * x[u] + H(0, 1) * y[u] + H(0, 2)) * k);
-      to_row[u] = within((H(1, 0) * x[u] + H(1, 1) * y[u] + H(1, 2)) * k);
-    }
+    picture::castRow(H, ray_x_.ptr<float>(region.y + v) + region.x,
+                     ray_y_.ptr<float>(region.y + v) + region.x, region.width, column.data(),
+                     row.data());
+    picture::readRow(texture.gray, column.data(), row.data(), region.width,
+                     seen.ptr<unsigned char>(v));
   }
-  cv::Mat picture;
-  cv::remap(texture.gray, picture, column, row, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  return picture;
+  return seen;
 }
 
 cv::Mat VirtualCamera::background(const Pose& X_CW) const {
   if (!wall_.empty()) return wall_.clone();
   const picture::RayToPlane table = picture::rayToPlane(X_CW);
   const Mat3 H = table.height > 0 ? table.H : Mat3(Mat3::Zero());
-  return lookUp(picture::nearestTexture(textures_, X_CW, truth_.fx), H,
-                {0, 0, ray_x_.cols, ray_x_.rows});
+  return lookUp(textures_.nearest(X_CW, truth_.fx), H, {0, 0, ray_x_.cols, ray_x_.rows});
 }
 
 /// Light, then noise: each row of each frame reads the bank from its own place, one of two signs.
@@ -122,19 +126,17 @@ void VirtualCamera::expose(std::uint64_t frame_number, cv::Mat* picture) const {
     const std::uint64_t draw = picture::randomBits(frame, std::uint64_t(v));
     const std::int16_t* noise = noise_.data() + (draw >> 8) % (kBank - width);
     const int sign = (draw & 1U) ? 1 : -1;
-    const std::uint16_t* gain = gain_.ptr<std::uint16_t>(v);
-    unsigned char* pixel = picture->ptr<unsigned char>(v);
-    for (std::size_t u = 0; u < width; ++u) {
-      const int sixteenths = ((pixel[u] * gain[u]) >> 4) + sign * noise[u];
-      pixel[u] = static_cast<unsigned char>(std::clamp((sixteenths + 8) >> 4, 0, 255));
-    }
+    exposeRow(gain_.ptr<std::uint16_t>(v), noise, sign, width, picture->ptr<unsigned char>(v));
   }
 }
 
 /// What lens and sensor make of a perfect picture.
 void VirtualCamera::take(std::uint64_t frame_number, cv::Mat* picture) const {
-  if (settings_.blur_sigma_px > 0)
-    cv::GaussianBlur(*picture, *picture, {0, 0}, settings_.blur_sigma_px);
+  if (settings_.blur_sigma_px > 0) {
+    cv::Mat sharp = *picture;  // of its own: in place the blur would copy it
+    *picture = cv::Mat();
+    cv::GaussianBlur(sharp, *picture, {0, 0}, settings_.blur_sigma_px);
+  }
   expose(frame_number, picture);
 }
 

@@ -77,7 +77,7 @@ class VirtualCamera {
  private:
   struct Plate {
     Eigen::Vector2d size;  ///< metres
-    std::vector<picture::GrayTexture> textures;
+    picture::TextureSeries textures;
   };
   struct Layer;
 
@@ -94,11 +94,11 @@ class VirtualCamera {
   calibration::CameraModel truth_;
   VirtualCameraSettings settings_;
   std::uint64_t seed_;
-  cv::Mat ray_x_, ray_y_;                       ///< at unit depth, for every pixel
-  std::vector<picture::RayBlock> blocks_;       ///< what the rays of each part of the picture span
-  cv::Mat gain_;                                ///< light and exposure, 256 = 1
-  cv::Mat wall_;                                ///< empty where there is a table
-  std::vector<picture::GrayTexture> textures_;  ///< of the table, fine to coarse
+  cv::Mat ray_x_, ray_y_;                  ///< at unit depth, for every pixel
+  std::vector<picture::RayBlock> blocks_;  ///< what the rays of each part of the picture span
+  cv::Mat gain_;                           ///< light and exposure, 256 = 1
+  cv::Mat wall_;                           ///< empty where there is a table
+  picture::TextureSeries textures_;        ///< of the table
   std::vector<Plate> plates_;
   std::vector<std::int16_t> noise_;  ///< 1/16 gray levels
 };

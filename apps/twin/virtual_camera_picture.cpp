@@ -1,6 +1,7 @@
 #include "apps/twin/virtual_camera_picture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -124,6 +125,85 @@ cv::Mat drawWall(const cv::Mat& ray_x, const cv::Mat& ray_y, double depth, std::
           float(kTable) +
           tone(waves, depth * ray_x.at<float>(v, u), depth * ray_y.at<float>(v, u)));
   return wall;
+}
+
+TextureSeries::TextureSeries(double tag_size, const Draw& draw) : draw_(draw) {
+  for (int i = 0; i < kTextures; ++i) {
+    const double texel = kFinestTexel * std::pow(2.0, i / 2.0);
+    if (tag_size / texel < 8) break;
+    add(texel);
+  }
+}
+
+TextureSeries TextureSeries::ofOne(double texel, const Draw& draw) {
+  TextureSeries series;
+  series.draw_ = draw;
+  series.add(texel);
+  return series;
+}
+
+void TextureSeries::add(double texel) {
+  levels_.push_back(std::make_shared<Level>());
+  levels_.back()->texture.texel = texel;
+}
+
+const GrayTexture& TextureSeries::nearest(const Pose& X_CP, double focal_length_px) const {
+  const double distance = std::max(X_CP.translation().norm(), 1e-3);
+  const double wanted = distance / focal_length_px / kTexelsPerPixel;
+  const auto off = [&](const std::shared_ptr<Level>& level) {
+    return std::abs(std::log(level->texture.texel / wanted));
+  };
+  Level& level = **std::min_element(levels_.begin(), levels_.end(),
+                                    [&](const auto& a, const auto& b) { return off(a) < off(b); });
+  std::call_once(level.drawn, [&] { level.texture.gray = draw_(level.texture.texel); });
+  return level.texture;
+}
+
+namespace {
+
+/// In 1/32 texels, to the nearest, even where two are as near. Texels that the border repeats need
+/// no larger numbers.
+std::int32_t fixed(float texel) {
+  constexpr float kWhole = 12582912;  // 1.5 x 2^23: a float has no finer parts there
+  const float high = texel < -100.F ? -100.F : texel, within = high > 20000.F ? 20000.F : high;
+  return std::bit_cast<std::int32_t>(32.F * within + kWhole) - std::bit_cast<std::int32_t>(kWhole);
+}
+
+}  // namespace
+
+void castRow(const Eigen::Matrix3f& H, const float* __restrict x, const float* __restrict y,
+             int count, std::int32_t* __restrict column, std::int32_t* __restrict row) {
+  const float h00 = H(0, 0), h01 = H(0, 1), h02 = H(0, 2), h10 = H(1, 0), h11 = H(1, 1),
+              h12 = H(1, 2), h20 = H(2, 0), h21 = H(2, 1), h22 = H(2, 2);
+  for (int u = 0; u < count; ++u) {
+    const float w = h20 * x[u] + h21 * y[u] + h22;
+    const float k = w > 1e-6F ? 1 / (w > 1e-6F ? w : 1e-6F) : 0.F;
+    column[u] = fixed((h00 * x[u] + h01 * y[u] + h02) * k);
+    row[u] = fixed((h10 * x[u] + h11 * y[u] + h12) * k);
+  }
+}
+
+void readRow(const cv::Mat& gray, const std::int32_t* column, const std::int32_t* row, int count,
+             unsigned char* pixel) {
+  const unsigned right = unsigned(gray.cols - 1), bottom = unsigned(gray.rows - 1);
+  const unsigned char* const texels = gray.data;
+  const std::size_t step = gray.step[0];
+  const auto clamped = [](int i, unsigned most) { return std::clamp(i, 0, int(most)); };
+  for (int u = 0; u < count; ++u) {
+    const int left = column[u] >> 5, top = row[u] >> 5;
+    const int fx = column[u] & 31, fy = row[u] & 31;
+    std::size_t next = 1, below = step, at = std::size_t(top) * step + std::size_t(left);
+    if (unsigned(left) >= right || unsigned(top) >= bottom) {
+      const int x0 = clamped(left, right), y0 = clamped(top, bottom);
+      next = std::size_t(clamped(left + 1, right) - x0);
+      below = std::size_t(clamped(top + 1, bottom) - y0) * step;
+      at = std::size_t(y0) * step + std::size_t(x0);
+    }
+    const unsigned char* p = texels + at;
+    const int over = (32 - fx) * p[0] + fx * p[next];
+    const int under = (32 - fx) * p[below] + fx * p[below + next];
+    pixel[u] = static_cast<unsigned char>(((32 - fy) * over + fy * under + 512) >> 10);
+  }
 }
 
 }  // namespace palpa::twin::picture

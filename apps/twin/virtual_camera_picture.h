@@ -1,9 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -80,29 +81,28 @@ inline constexpr double kFinestTexel = 0.00025;  // metres: a pixel at 0.15 m, f
 inline constexpr int kTextures = 10;  // sqrt(2) apart: the coarsest is 5.7 mm, a pixel at 3.4 m
 inline constexpr double kTexelsPerPixel = 1.25;  // averaging plus interpolation then match a pixel
 
-/// `draw(texel)` gives the area-averaged picture; fine to coarse, at least one, until a cell of a
-/// tag is less than a texel: no tag left to see.
-template <typename Draw>
-std::vector<GrayTexture> textureSeries(double tag_size, const Draw& draw) {
-  std::vector<GrayTexture> series;
-  for (int i = 0; i < kTextures; ++i) {
-    const double texel = kFinestTexel * std::pow(2.0, i / 2.0);
-    if (tag_size / texel < 8) break;
-    series.push_back({draw(texel), texel});
-  }
-  return series;
-}
+/// Area-averaged pictures of one thing, fine to coarse, at least one, until a cell of a tag is less
+/// than a texel: no tag left to see. Each is drawn when it is first looked at, because a session
+/// needs one or two of ten, and the finest cost most. Any thread.
+class TextureSeries {
+ public:
+  using Draw = std::function<cv::Mat(double texel)>;
+  TextureSeries() = default;
+  TextureSeries(double tag_size, const Draw& draw);
+  static TextureSeries ofOne(double texel, const Draw& draw);
 
-/// The one whose texels are nearest to a pixel's footprint at P's origin.
-inline const GrayTexture& nearestTexture(const std::vector<GrayTexture>& series, const Pose& X_CP,
-                                         double focal_length_px) {
-  const double distance = std::max(X_CP.translation().norm(), 1e-3);
-  const double wanted = distance / focal_length_px / kTexelsPerPixel;
-  const auto worse = [&](const GrayTexture& a, const GrayTexture& b) {
-    return std::abs(std::log(a.texel / wanted)) < std::abs(std::log(b.texel / wanted));
+  /// The one whose texels are nearest to a pixel's footprint at P's origin.
+  const GrayTexture& nearest(const Pose& X_CP, double focal_length_px) const;
+
+ private:
+  struct Level {
+    std::once_flag drawn;
+    GrayTexture texture;  ///< without its picture until it is drawn
   };
-  return *std::min_element(series.begin(), series.end(), worse);
-}
+  void add(double texel);
+  Draw draw_;
+  std::vector<std::shared_ptr<Level>> levels_;
+};
 
 /// Metres on the plane to texels.
 inline Mat3 toTexel(const GrayTexture& texture) {
@@ -111,6 +111,18 @@ inline Mat3 toTexel(const GrayTexture& texture) {
   to_texel << 1 / texture.texel, 0, cu, 0, -1 / texture.texel, cv_, 0, 0, 1;
   return to_texel;
 }
+
+/// Where the rays (x, y, 1) of a row meet a plane, H as `RayToPlane::H` then `toTexel`: `column`
+/// and `row` in 1/32 texels, to the nearest; behind the camera 0. What the border repeats is cut at
+/// -100 and 20,000 texels. No branch, and nothing that might be the same memory, so that it runs on
+/// vectors.
+void castRow(const Eigen::Matrix3f& H, const float* __restrict x, const float* __restrict y,
+             int count, std::int32_t* __restrict column, std::int32_t* __restrict row);
+
+/// Between the four texels round each of these places, as cv::remap does it with INTER_LINEAR and
+/// BORDER_REPLICATE, to the bit; but without two pictures of places, which cost more than the rest.
+void readRow(const cv::Mat& gray, const std::int32_t* column, const std::int32_t* row, int count,
+             unsigned char* pixel);
 
 inline constexpr double kPaper = 222;  ///< gray level of white paper under even light
 

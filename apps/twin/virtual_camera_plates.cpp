@@ -103,8 +103,7 @@ VirtualCamera::Layer VirtualCamera::layerOf(const PlatePose& placed) const {
   if (std::abs(plane.height) < kEdgeOn) layer.region = {};
   if (layer.region.empty()) return layer;
   layer.gray = plane.height > 0
-                   ? lookUp(picture::nearestTexture(plate.textures, placed.X_CB, truth_.fx),
-                            plane.H, layer.region)
+                   ? lookUp(plate.textures.nearest(placed.X_CB, truth_.fx), plane.H, layer.region)
                    : cv::Mat(layer.region.size(), CV_8U, cv::Scalar(picture::kPaper));
   layer.share.create(layer.region.size(), CV_32F);
   layer.nearness.create(layer.region.size(), CV_32F);

@@ -30,5 +30,32 @@ TEST(BenchStop, MeasuresEverySourceWithEveryHungPart) {
   EXPECT_EQ(metrics, expected);
 }
 
+TEST(BenchSession, SaysHowSoonAndHowFastAndWhatEveryStageTakes) {
+  const Folder here;
+  const Outcome outcome = palpa({"bench", "session", "--trials", "1"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::multiset<std::string> metrics;
+  std::set<std::string> stages;
+  double shares = 0;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto metric = nlohmann::json::parse(line);
+    EXPECT_GT(metric["value"], 0) << line;
+    EXPECT_EQ(metric["params"]["tracking"], "images");
+    if (metric["metric"] == "stage_share") {
+      shares += metric["value"].get<double>();
+      stages.insert(metric["params"]["stage"]);
+    } else {
+      metrics.insert(metric["metric"]);
+    }
+  }
+  const std::multiset<std::string> expected{"start_seconds", "start_seconds", "times_real_time"};
+  EXPECT_EQ(metrics, expected);
+  EXPECT_NEAR(shares, 1, 1e-9);
+  for (const char* stage : {"haptic", "bench", "geometry", "camera", "task", "scene", "recorder",
+                            "drawing", "tracking", "rest"})
+    EXPECT_EQ(stages.count(stage), 1u) << stage;
+}
+
 }  // namespace
 }  // namespace palpa::cli_test

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "anatomy/base/error.h"
 #include "apps/cli/usage_words.h"
 #include "command_words.h"
@@ -33,12 +35,13 @@ TEST(Mistakes, ANumberOfNoKindIsRefusedByEveryOptionThatTakesOne) {
 }
 
 TEST(Mistakes, WithoutItsValueEveryOptionIsNamed) {
+  const std::set<std::string> with_or_without{"--simulate", "--list-commands", "--slurm"};
   Commands commands;
   int asked = 0;
   commands.each([&](const Words& path, const cli::CommandText& command) {
     for (const cli::OptionText& option : command.options) {
       const std::string name = option.names.back();
-      if (option.value.empty() || name == "--simulate") continue;  // of a study: with or without
+      if (option.value.empty() || with_or_without.contains(name)) continue;
       for (const Words& more : {Words{name}, Words{name, "--help"}}) {
         const std::string said = commands.complaintAbout(with(path, more));
         EXPECT_EQ(faultOf(said), "") << said;

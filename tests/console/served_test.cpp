@@ -17,6 +17,7 @@
 #include "apps/console/guard.h"
 #include "apps/console/httplib_server.h"
 #include "apps/console/web_server.h"
+#include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 #include "apps/trial/trial_status.h"
 #include "tests/support/damage.h"
@@ -296,6 +297,23 @@ TEST(Served, TwoConsolesAtOnePlaceAreOneTooMany) {
   EXPECT_NE(second.url().find("runs already"), std::string::npos) << second.url();
   EXPECT_NE(second.url().find(desk.console->url()), std::string::npos);
   EXPECT_TRUE(desk.console->get("/api/me").contains("version"));
+}
+
+/// A console that was killed holds its lock and its port until the system has taken it apart.
+TEST(Served, AConsoleWaitsForAKilledOneToLetGo) {
+  const test::ScratchFolder folder("killed_console");
+  const test::ShortFolder sockets;
+  std::filesystem::create_directories(folder / "home");
+  const std::filesystem::path lock = folder / "home" / "lock";
+  auto killed = os::FileLock::exclusive(lock, os::FileLock::Missing::is_made);
+  ASSERT_TRUE(killed);
+  std::thread taken_apart([&] {
+    runtime::rest(500ms);
+    killed.reset();
+  });
+  Served next(folder / "home", sockets.path());
+  taken_apart.join();
+  EXPECT_EQ(next.url().rfind("http", 0), 0u) << next.url();
 }
 
 TEST(Served, ManyAskForEverythingAtOnce) {

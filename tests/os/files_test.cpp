@@ -6,6 +6,7 @@
 
 #include "anatomy/base/error.h"
 #include "apps/os/file_access.h"
+#include "apps/os/worker_processes.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/setting.h"
 
@@ -149,6 +150,31 @@ TEST(FileLock, OneHolderAtATime) {
   }
   EXPECT_FALSE(isLocked(file));
   EXPECT_TRUE(FileLock::exclusive(file, FileLock::Missing::fails));
+}
+
+/// Whoever holds it removes the file: another one may have opened it just before.
+TEST(FileLock, HasOneHolderAlthoughItsFileComesAndGoes) {
+  constexpr std::size_t kWorkers = 4;
+  constexpr int kTries = 3000;
+  const test::ScratchFolder folder("os-lock-removed");
+  const fs::path file = folder / "lock", inside = folder / "inside";
+  WorkerPool pool(kWorkers);
+  for (std::size_t i = 0; i < kWorkers; ++i)
+    pool.start(i, [&](const Report& report) {
+      for (int held = 0; held < kTries;) {
+        const auto lock = FileLock::exclusive(file, FileLock::Missing::is_made);
+        if (!lock) continue;
+        ++held;
+        if (createNew(inside)) report("not alone");
+        fs::remove(inside);
+        fs::remove(file);
+      }
+    });
+  while (!pool.isIdle())
+    for (const WorkerNews& news : pool.await(1'000'000'000)) {
+      EXPECT_EQ(news.lines.size(), 0u) << "times another was inside";
+      EXPECT_EQ(news.failure, "");
+    }
 }
 
 }  // namespace

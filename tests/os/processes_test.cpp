@@ -3,13 +3,25 @@
 #include <malloc.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <sstream>
 #include <string>
+#include <thread>
+#include <vector>
 
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/os/child_process.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
@@ -22,48 +34,118 @@
 namespace palpa::os {
 namespace {
 
-/// Until one has ended.
-EndedWorker endedOne() {
-  for (;;) {
-    if (const auto worker = takeEnded()) return *worker;
-    sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+constexpr std::int64_t kLook_ns = 1'000'000'000;
+
+/// All that is told until every worker has ended.
+std::vector<WorkerNews> newsOf(WorkerPool& pool) {
+  std::vector<WorkerNews> all;
+  while (!pool.isIdle())
+    for (const WorkerNews& news : pool.await(kLook_ns)) all.push_back(news);
+  return all;
+}
+
+TEST(Workers, TellTheirLinesInOrderAndOnlyWhatTheySaid) {
+  constexpr std::size_t kWorkers = 4, kLines = 1000;
+  WorkerPool pool(kWorkers);
+  for (std::size_t i = 0; i < kWorkers; ++i)
+    pool.start(i, [i](const Report& report) {
+      for (std::size_t line = 0; line < kLines; ++line)
+        report(std::to_string(i) + ":" + std::to_string(line));
+    });
+  EXPECT_TRUE(pool.isFull());
+  std::map<std::size_t, std::size_t> told;
+  std::size_t ended = 0;
+  for (const WorkerNews& news : newsOf(pool)) {
+    for (const std::string& line : news.lines)
+      EXPECT_EQ(line, std::to_string(news.item) + ":" + std::to_string(told[news.item]++));
+    EXPECT_EQ(news.failure, "");
+    ended += news.ended;
   }
+  EXPECT_EQ(ended, kWorkers);
+  for (const auto& [item, lines] : told) EXPECT_EQ(lines, kLines) << item;
+  EXPECT_TRUE(pool.await(0).empty()) << "none is left";
 }
 
-TEST(Workers, WriteIntoMemoryThatAllSee) {
-  constexpr int kWorkers = 4, kSteps = 1000;
-  const SharedMemory<std::atomic<int>> count("");
-  for (int i = 0; i < kWorkers; ++i)
-    ASSERT_TRUE(forkWorker([&] {
-      for (int step = 0; step < kSteps; ++step) ++*count;
-    }));
-  for (int i = 0; i < kWorkers; ++i) EXPECT_TRUE(endedOne().clean);
-  EXPECT_EQ(*count, kWorkers * kSteps);
-  EXPECT_FALSE(takeEnded()) << "none is left";
+TEST(Workers, ThatFailOrCrashAreToldApart) {
+  const std::pair<std::function<void(const Report&)>, const char*> kinds[]{
+      {[](const Report&) {}, ""},
+      {[](const Report&) { throw Error("is broken", "it", "Mend it"); }, "it: is broken. Mend it"},
+      {[](const Report&) { ::raise(SIGKILL); }, "its process was ended by signal KILL"},
+      {[](const Report& report) {
+         report("begun");
+         ::signal(SIGSEGV, SIG_DFL);  // whatever runs the tests makes of it
+         ::raise(SIGSEGV);
+       },
+       "its process was ended by signal SEGV"},
+      {[](const Report&) { ::_exit(3); }, "its process ended by itself"}};
+  WorkerPool pool(std::size(kinds));
+  for (std::size_t i = 0; i < std::size(kinds); ++i) pool.start(i, kinds[i].first);
+  std::size_t ended = 0;
+  for (const WorkerNews& news : newsOf(pool))
+    if (news.ended) {
+      EXPECT_EQ(news.failure, kinds[news.item].second);
+      ++ended;
+    }
+  EXPECT_EQ(ended, std::size(kinds));
 }
 
-TEST(Workers, AKilledOneIsNotClean) {
-  ASSERT_TRUE(forkWorker([] { ::raise(SIGKILL); }));
-  EXPECT_FALSE(endedOne().clean);
-}
-
-/// A process that only waits, as a session that is stopped or killed is seen by others.
-ProcessId sleepingOne(const SharedMemory<std::atomic<bool>>& there,
-                      const SharedMemory<ProcessId>& who) {
-  *there = false;
-  EXPECT_TRUE(forkWorker([&] {
-    *who = thisProcess();
-    *there = true;
+TEST(Workers, EndWhenTheyAreAskedToAndWithTheirPool) {
+  const auto sleep = [](const Report&) {
+    ::signal(SIGTERM, SIG_DFL);
     for (;;) ::pause();
-  }));
-  while (!*there) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
-  return *who;
+  };
+  WorkerPool asked(1);
+  asked.start(7, sleep);
+  EXPECT_TRUE(asked.await(0).empty());
+  asked.askToEnd();
+  const std::vector<WorkerNews> news = newsOf(asked);
+  ASSERT_EQ(news.size(), 1u);
+  EXPECT_EQ(news[0].item, 7u);
+  EXPECT_EQ(news[0].failure, "its process was ended by signal TERM");
+  WorkerPool dropped(2);  // its end does not wait for theirs
+  for (const std::size_t item : {0u, 1u}) dropped.start(item, sleep);
+}
+
+TEST(Workers, PrintIntoAFile) {
+  const test::ScratchFolder here("printing");
+  WorkerPool pool(1);
+  pool.start(0, [&](const Report&) {
+    sendOutputTo(here / "printed.txt");
+    std::puts("to the one");
+    std::fputs("and to the other\n", stderr);
+  });
+  EXPECT_EQ(newsOf(pool).at(0).failure, "");
+  const std::string printed = readWhole(here / "printed.txt").value_or("");
+  EXPECT_NE(printed.find("to the one\n"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("and to the other\n"), std::string::npos) << printed;
+}
+
+TEST(Workers, HaveAtLeastOneProcessor) {
+  EXPECT_GE(processorsForUs(), 1);
+  EXPECT_LE(processorsForUs(), ::sysconf(_SC_NPROCESSORS_CONF));
+}
+
+/// Which process this is.
+void tellWho(const Report& report) {
+  report(std::to_string(thisProcess().began) + " " + std::to_string(thisProcess().pid));
+}
+
+/// A process that tells who it is, and then waits.
+ProcessId waitingOne(WorkerPool& pool, const std::function<void(const Report&)>& waits) {
+  pool.start(0, waits);
+  std::vector<WorkerNews> news;
+  while (news.empty()) news = pool.await(kLook_ns);
+  ProcessId who;
+  std::istringstream(news[0].lines.at(0)) >> who.began >> who.pid;
+  return who;
 }
 
 TEST(Processes, AStoppedOneIsSeenToBeAndIsEnded) {
-  const SharedMemory<std::atomic<bool>> there("");
-  const SharedMemory<ProcessId> who("");
-  const ProcessId process = sleepingOne(there, who);
+  WorkerPool pool(1);
+  const ProcessId process = waitingOne(pool, [](const Report& report) {
+    tellWho(report);
+    for (;;) ::pause();
+  });
   EXPECT_TRUE(runs(process));
   EXPECT_FALSE(isStopped(process));
   ::kill(process.pid, SIGSTOP);
@@ -76,6 +158,25 @@ TEST(Processes, AStoppedOneIsSeenToBeAndIsEnded) {
   EXPECT_FALSE(isStopped(process));
 }
 
+/// What a killed program is for a while: its first thread has ended, another has not, and its files
+/// are open.
+TEST(Processes, OneRunsAsLongAsAThreadOfIt) {
+  WorkerPool pool(1);
+  const ProcessId process = waitingOne(pool, [](const Report& report) {
+    std::thread([&report, first = processNumber()] {
+      const std::string stat = "/proc/" + std::to_string(first) + "/stat";
+      while (readWhole(stat).value_or("").find(") Z ") == std::string::npos)
+        sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+      tellWho(report);
+      for (;;) ::pause();
+    }).detach();
+    ::syscall(SYS_exit, 0);
+  });
+  EXPECT_TRUE(runs(process));
+  endAtOnce(process);
+  while (runs(process)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+}
+
 TEST(Processes, TheLineToACompanionEndsWithIt) {
   const Companion lister = startWithLine({"--gtest_list_tests"});  // of this test, to nowhere
   ASSERT_GE(lister.line, 0);
@@ -83,6 +184,15 @@ TEST(Processes, TheLineToACompanionEndsWithIt) {
   while (receiveSome(lister.line, &byte, 1)) ready(lister.line, Wait::to_read, 100);
   while (runs(lister.process)) sleepUntilMonotonic(monotonic_ns() + 1'000'000);
   closeSocket(lister.line);
+}
+
+TEST(Processes, WhatOneTookIsKnownAtItsEnd) {
+  const test::ScratchFolder folder("spent");
+  const Spent spent = runToEnd({"--gtest_list_tests"}, folder.path() / "log");
+  EXPECT_EQ(spent.exit_code, 0);
+  EXPECT_GT(spent.peak_MB, 0.5);
+  EXPECT_LT(spent.peak_MB, 10'000);
+  EXPECT_GE(spent.processor_s, 0);
 }
 
 TEST(Processes, KnowTheirProgram) {
@@ -222,6 +332,30 @@ TEST(Memory, LargePiecesGoBackAsSoonAsTheyAreFree) {
     ::_exit(mallinfo2().hblks == before ? 0 : 4);
   };
   EXPECT_EXIT(given_back(), testing::ExitedWithCode(0), "");
+}
+
+/// Pages of this process that are in memory.
+long residentPages() {
+  std::ifstream statm("/proc/self/statm");
+  long size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident;
+}
+
+TEST(Memory, WhatIsFreeBetweenPiecesInUseGoesBack) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer has its own memory";
+  constexpr std::size_t kPiece = 20'000, kPieces = 2000;
+  std::vector<std::unique_ptr<char[]>> pieces;
+  for (std::size_t i = 0; i < kPieces; ++i) {
+    pieces.emplace_back(new char[kPiece]);
+    std::fill_n(pieces.back().get(), kPiece, 'x');
+  }
+  for (std::size_t i = 0; i < kPieces; ++i)
+    if (i % 4 != 0) pieces[i].reset();
+  const long before = residentPages();
+  giveFreeMemoryBack();
+  const auto free = static_cast<long>(3 * kPieces / 4 * kPiece) / ::sysconf(_SC_PAGESIZE);
+  EXPECT_GT(before - residentPages(), free / 2);
 }
 
 }  // namespace

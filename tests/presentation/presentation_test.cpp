@@ -6,7 +6,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/trial/shown.h"
+#include "apps/trial/trial_scene.h"
 #include "tests/support/files.h"
 
 namespace palpa::presentation {

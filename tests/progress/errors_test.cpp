@@ -45,10 +45,10 @@ TEST(Errors, WhatHappenedAgainLatelyRecurs) {
   ASSERT_EQ(errors.size(), 2u);
   EXPECT_STREQ(errors[0].kind->metric, "col_lung");
   EXPECT_TRUE(errors[0].recurs());
-  EXPECT_EQ(errors[0].with, 2);
-  EXPECT_EQ(errors[0].of, 10);
-  EXPECT_EQ(errors[1].with, 2);
-  EXPECT_EQ(errors[1].lately, 0);
+  EXPECT_EQ(errors[0].all.with, 2);
+  EXPECT_EQ(errors[0].all.of, 10);
+  EXPECT_EQ(errors[1].all.with, 2);
+  EXPECT_EQ(errors[1].lately.with, 0);
   EXPECT_FALSE(errors[1].recurs());
 }
 
@@ -68,7 +68,7 @@ TEST(Costs, ATaskThatWeighsOtherwiseHasNone) {
   Series series = practice({"A"}, 5);
   set(series.trials[4], "total", 123);
   EXPECT_TRUE(costsLately(series).empty());
-  series.trials[4].metrics = {{"success", 1}};
+  series.trials[4].figures = {{"success", 1}};
   EXPECT_TRUE(costsLately(series).empty());
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "anatomy/base/error.h"
 #include "apps/training/engine.h"
 #include "apps/training/trial_words.h"
 #include "practice.h"
@@ -81,12 +82,40 @@ TEST(History, EveryFigureShownIsInTheTable) {
 }
 
 TEST(History, AnEngineIsKnownByItsFigures) {
-  EXPECT_EQ(engineOfFigures(cleanTrial("A", 1).metrics), training::Engine::needle);
-  EXPECT_EQ(engineOfFigures({{"presses", 3}}), training::Engine::palpation);
-  EXPECT_EQ(engineOfFigures({{"chosen", 1}}), training::Engine::search);
-  EXPECT_EQ(engineOfFigures({{"grips", 2}}), training::Engine::squeeze);
+  EXPECT_EQ(engineOfFigures({"success", "tissue_time_s"}), training::Engine::needle);
+  EXPECT_EQ(engineOfFigures({"presses"}), training::Engine::palpation);
+  EXPECT_EQ(engineOfFigures({"chosen"}), training::Engine::search);
+  EXPECT_EQ(engineOfFigures({"grips"}), training::Engine::squeeze);
   EXPECT_EQ(engineOfFigures({}), std::nullopt);
   EXPECT_TRUE(std::isnan(cleanTrial("A", 1).metric("no such")));
+}
+
+/// A page that asks for a figure which trials do not keep must not take it for missing.
+TEST(History, AFigureThatIsNotKeptIsRefused) {
+  EXPECT_THROW(figureNumber("hausdorff_mm"), Error);
+  PracticeTrial trial = cleanTrial("A", 1);
+  trial.figures.set("hausdorff_mm", 3);
+  EXPECT_THROW(trial.metric("hausdorff_mm"), Error);
+  EXPECT_EQ(trial.metric("time_s"), 20);
+  Figures other;
+  EXPECT_TRUE(other.empty());
+  other.set("hausdorff_mm", 3);
+  EXPECT_FALSE(other.empty());
+}
+
+TEST(History, ATraineesTrialsAreViewsInTheirOrder) {
+  std::vector<PracticeTrial> trials;
+  for (const char* trainee : {"B", "A", "C"})
+    for (int i = 3; i >= 1; --i) trials.push_back(cleanTrial(trainee, i));
+  const Series series = seriesOf(trials).at(0);
+  const std::vector<PracticeView> people = byTrainee(series);
+  ASSERT_EQ(people.size(), 3u);
+  for (std::size_t p = 0; p < people.size(); ++p) {
+    EXPECT_EQ(people[p].trainee(), std::string(1, static_cast<char>('A' + p)));
+    EXPECT_EQ(people[p].trials.data(), series.trials.data() + 3 * p);  // no copies
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(people[p].trials[i].number, static_cast<std::int64_t>(i + 1));
+  }
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ inline PracticeTrial cleanTrial(const std::string& trainee, int number,
   t.number = number;
   t.role = training::Role::scored;
   t.outcome = training::Outcome::success;
-  t.metrics = {{"success", 1},
+  t.figures = {{"success", 1},
                {"time_s", 20},
                {"total", 200 + 2.0 * 5 + 2 * 3 + 20 * 4},
                {"col_lung", 0},
@@ -39,8 +39,7 @@ inline PracticeTrial cleanTrial(const std::string& trainee, int number,
 }
 
 inline void set(PracticeTrial& trial, const std::string& metric, double value) {
-  for (metrics::MetricValue& m : trial.metrics)
-    if (m.name == metric) m.value = value;
+  trial.figures.set(metric, value);
 }
 
 }  // namespace palpa::progress::test

@@ -77,11 +77,11 @@ TEST(TraineePage, OfOtherRatesTheShortestCleanRunIsTheirs) {
 
 TEST(TraineePage, CompetenceProposesTestsAndAPauseShowsItsCost) {
   TraineeReport report = test::madeUpTrainee(30);
-  for (progress::PracticeTrial& trial : report.trials)
-    for (metrics::MetricValue& m : trial.metrics) {
-      if (m.name == "success" || m.name == "needle_passes") m.value = 1;
-      if (m.name == "col_lung") m.value = 0;
-    }
+  for (progress::PracticeTrial& trial : report.trials) {
+    trial.figures.set("success", 1);
+    trial.figures.set("needle_passes", 1);
+    trial.figures.set("col_lung", 0);
+  }
   const std::string page = traineePage(report);
   EXPECT_TRUE(tells(page, "accepted at trial 13 (2027-01-12)"));
   EXPECT_TRUE(tells(page, "Test again on 2027-07-12 and 2028-01-12"));
@@ -115,7 +115,7 @@ TEST(TraineePage, PalpationIsLockedBelowEightCases) {
     t.number = i;
     t.role = training::Role::scored;
     t.outcome = training::Outcome::done;
-    t.metrics = {{"success", 1},
+    t.figures = {{"success", 1},
                  {"time_s", 100.0 + i},
                  {"sensitivity_pct", 80.0 + i},
                  {"specificity_pct", 100},

@@ -35,7 +35,7 @@ inline progress::PracticeTrial madeUpTrial(const std::string& trainee, int n, Ra
   t.outcome = success ? training::Outcome::success : training::Outcome::aborted;
   const double direction = phase_2 < 1000 ? 0 : 0.2 * phase_2;
   const double passes = 1 + std::floor(4 * wild * random.openUniform());
-  t.metrics = {{"success", success ? 1.0 : 0.0},
+  t.figures = {{"success", success ? 1.0 : 0.0},
                {"time_s", time},
                {"total", 500 * lung + 50 * rib + 10 * vein + 2 * phase_1 + direction + 2 * mean +
                              20 * variance + 10 * time},

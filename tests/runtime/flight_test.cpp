@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
+#include <malloc.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "activities.h"
@@ -12,6 +16,7 @@
 #include "apps/runtime/recorders.h"
 #include "haptics/loop/tick.h"
 #include "tests/haptics/needle_bench.h"
+#include "tests/support/counts.h"
 
 /// The haptic and the recorder activity with all threads, and what the recorder got: run again, the
 /// same bits. The needle dips into a block of tissue; a snapshot of it is renewed like the geometry
@@ -271,6 +276,41 @@ TEST(RecorderActivity, DrainsInOrderCommitsAndCountsWhatWasLost) {
   EXPECT_EQ(recorder.dropped(), 0u);
   for (int i = 0; i < 9000; ++i) bus.haptic_to_recorder.push({});
   EXPECT_EQ(recorder.dropped(), 9000u - 8192u);
+}
+
+/// Of this process in memory, bytes.
+long residentBytes() {
+  std::ifstream statm("/proc/self/statm");
+  long size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident * ::sysconf(_SC_PAGESIZE);
+}
+
+/// In a process of its own: the setting stays.
+TEST(RecorderActivity, GivesFreeMemoryBackOnceAMinute) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer has its own memory";
+  const auto given_back = [] {
+    ::mallopt(M_TRIM_THRESHOLD, 64 << 20);  // nothing goes back by itself
+    Bus bus(TimeMode::real);
+    Memory sink;
+    RecorderActivity recorder(bus, sink);
+    recorder.step(0);
+    constexpr std::size_t kPiece = 50'000, kPieces = 200;
+    constexpr long kMost = kPiece * kPieces / 2;
+    for (const std::int64_t minute : {1, 2}) {
+      std::vector<std::unique_ptr<char[]>> pieces;
+      for (std::size_t i = 0; i < kPieces; ++i)
+        std::memset(pieces.emplace_back(new char[kPiece]).get(), 1, kPiece);
+      pieces.clear();
+      const long free = residentBytes();
+      recorder.step(60 * minute * kSecond - 100 * kMillisecond);
+      if (residentBytes() < free - kMost) ::_exit(3);  // too early
+      recorder.step(60 * minute * kSecond + 100 * kMillisecond);
+      if (residentBytes() > free - kMost) ::_exit(4);
+    }
+    ::_exit(0);
+  };
+  EXPECT_EXIT(given_back(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

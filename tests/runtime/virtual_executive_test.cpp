@@ -87,6 +87,23 @@ TEST(VirtualExecutive, ExceptionReachesTheCaller) {
   EXPECT_THROW(executive->run(), std::runtime_error);
 }
 
+TEST(VirtualExecutive, SaysWhatStepsCostAndStepsInTheSameOrder) {
+  Log plain, measured;
+  StepCosts costs;
+  for (const bool asked : {false, true}) {
+    const auto executive = makeVirtualExecutive(asked ? &costs : nullptr);
+    Log& log = asked ? measured : plain;
+    Doing fast = ticker(log, "fast", 10, 100), slow = ticker(log, "slow", 30, 100);
+    executive->add(slow, {0, false, false});
+    executive->add(fast, {1, false, false});
+    executive->run();
+  }
+  EXPECT_EQ(measured, plain);
+  ASSERT_EQ(costs.size(), 2u);
+  EXPECT_GT(costs.at("fast"), 0);
+  EXPECT_GT(costs.at("slow"), 0);
+}
+
 TEST(VirtualExecutive, WithoutActivitiesItReturns) {
   const auto executive = makeVirtualExecutive();
   executive->run();

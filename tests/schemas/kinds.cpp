@@ -11,6 +11,7 @@
 #include "apps/station/material_files.h"
 #include "apps/station/station_file.h"
 #include "apps/study/analysis/study_design.h"
+#include "apps/study/campaign.h"
 #include "apps/study/learning.h"
 #include "apps/study/protocol.h"
 #include "apps/study/questionnaire.h"
@@ -20,11 +21,10 @@
 #include "apps/task_squeeze/squeeze_file.h"
 #include "apps/twin/bench_faults.h"
 #include "apps/twin/bench_truth.h"
+#include "apps/twin/feeling_hands.h"
 #include "apps/twin/lump_search.h"
 #include "apps/twin/operator.h"
 #include "apps/twin/phantom/phantom_file.h"
-#include "apps/twin/searching_hand.h"
-#include "apps/twin/squeezing_hands.h"
 #include "apps/twin/tracking_model.h"
 #include "ar/boards/board.h"
 #include "calibration/camera_model.h"
@@ -356,6 +356,41 @@ std::vector<Kind> studyKinds() {
            .elsewhere = {}}};
 }
 
+Kind campaignKind() {
+  const json other_patient{
+      "../patients/reference.json"};  // what it holds is the session's question
+  const auto session_of = [](const char* task, const json& setting) {
+    return json{{"tasks", {std::string("../tasks/") + task}},
+                {"patients", nullptr},
+                {"settings", {setting}}};
+  };
+  return {
+      .name = "campaign",
+      .samples = {{"campaigns/needle_by_touch.json",
+                   {{"station", "../stations/virtual_bench.json"},
+                    {"patient_files", other_patient},
+                    {"trials", 2},
+                    {"settings",
+                     {{{"name", "all"},
+                       {"force_feedback", true},
+                       {"augment", false},
+                       {"assess", false},
+                       {"knows_patient", true},
+                       {"handedness", "left"},
+                       {"side", "left"},
+                       {"presentation", "pilot"}}}}}},
+                  {"campaigns/needle_by_touch.json",
+                   session_of("palpation_breast.json", {{"name", "guided"}, {"guidance", true}})},
+                  {"campaigns/needle_by_touch.json",
+                   session_of("search.json", {{"name", "all"}, {"mode", "all"}})}},
+      .read = [](const fs::path& file) { study::readCampaign(file); },
+      // Files must be there, tasks of one engine; not too many in all.
+      .stricter = {"/(tasks|station|operators|patient_files).*", "/settings/./presentation.*",
+                   "/(patients|seeds)/count.*"},
+      .forgiving = {},
+      .elsewhere = {}};
+}
+
 std::vector<Kind> operatorKinds() {
   return {{.name = "operator_needle",
            .samples = {{"operators/expert.json", json::object()},
@@ -394,7 +429,7 @@ std::vector<Kind> operatorKinds() {
 }  // namespace
 
 std::vector<Kind> everyKind() {
-  std::vector<Kind> all{stationKind()};
+  std::vector<Kind> all{stationKind(), campaignKind()};
   for (const std::vector<Kind>& some :
        {taskKinds(), materialKinds(), patientKinds(), studyKinds(), operatorKinds()})
     all.insert(all.end(), some.begin(), some.end());

@@ -21,6 +21,7 @@ struct Place {
 };
 constexpr Place kPlaces[] = {
     {"boards/[^/]+", "board"},
+    {"campaigns/[^/]+", "campaign"},
     {"checklists/global_rating.json", "global_rating"},
     {"checklists/subclavian.json", "checklist"},
     {"materials/(needle|bone_pin).json", "needle_material"},

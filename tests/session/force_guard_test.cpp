@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <sstream>
 #include <thread>
 
 #include "apps/os/socket.h"
@@ -25,18 +26,18 @@ class GuardedSession {
  public:
   GuardedSession() {
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, line_) != 0) return;
-    *there_ = false;
-    os::forkWorker([this] {
+    pool_.start(0, [this](const os::Report& report) {
       ::close(line_[1]);
-      *who_ = os::thisProcess();
-      *there_ = true;
+      report(std::to_string(os::thisProcess().began) + " " + std::to_string(os::thisProcess().pid));
       for (;;) {
         os::sendSome(line_[0], ".", 1);
         rest();
       }
     });
     os::closeSocket(line_[0]);
-    while (!*there_) rest();
+    std::vector<os::WorkerNews> news;
+    while (news.empty()) news = pool_.await(runtime::kSecond);
+    std::istringstream(news.front().lines.at(0)) >> who_.began >> who_.pid;
   }
   ~GuardedSession() {
     os::endAtOnce(process());
@@ -45,13 +46,13 @@ class GuardedSession {
   }
   GuardedSession(const GuardedSession&) = delete;
   GuardedSession& operator=(const GuardedSession&) = delete;
-  os::ProcessId process() const { return *who_; }
+  os::ProcessId process() const { return who_; }
   int guardsEnd() const { return line_[1]; }
 
  private:
   int line_[2] = {-1, -1};
-  const os::SharedMemory<std::atomic<bool>> there_{""};
-  const os::SharedMemory<os::ProcessId> who_{""};
+  os::WorkerPool pool_{1};
+  os::ProcessId who_;
 };
 
 TEST(ForceGuard, SeesASessionThatDies) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "anatomy/base/whole_file.h"
 #include "anatomy/patient/patient_file.h"
@@ -68,6 +70,69 @@ TEST_F(KeptPatient, ComesWithoutAFolderToo) {
   const std::string built = bytesOf(4);
   const test::Setting nowhere("PALPA_CACHE", "/proc/none");
   EXPECT_EQ(bytesOf(4), built);
+}
+
+TEST_F(KeptPatient, LiesInTheUsersCacheUnlessItIsSwitchedOff) {
+  const test::Setting home("XDG_CACHE_HOME", here_.path().c_str());
+  {
+    const test::Setting off("PALPA_CACHE", "off");
+    bytesOf(4);
+    EXPECT_TRUE(files().empty());
+  }
+  const test::Setting unset("PALPA_CACHE", nullptr);
+  bytesOf(4);
+  ASSERT_EQ(files().size(), 1u);
+  EXPECT_EQ(files().front().parent_path(), here_.path() / "palpa/patients");
+  EXPECT_EQ(os::privacyOf(files().front()), os::Privacy::own);
+  EXPECT_EQ(os::privacyOf(here_.path() / "palpa"), os::Privacy::own);
+}
+
+class KeptFiles : public testing::Test {
+ protected:
+  /// Written so many minutes ago.
+  std::filesystem::path put(const std::string& name, std::size_t bytes, int minutes) const {
+    const std::filesystem::path file = here_.path() / name;
+    std::ofstream(file) << std::string(bytes, 'x');
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(minutes));
+    return file;
+  }
+  static std::string patient(int i) {
+    const std::string number = std::to_string(i);
+    return std::string(64 - number.size(), 'a') + number + ".glb";
+  }
+  std::uintmax_t bytes() const {
+    std::uintmax_t sum = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(here_.path()))
+      sum += entry.file_size();
+    return sum;
+  }
+
+  const os::TemporaryFolder here_{"palpa-kept-"};
+};
+
+TEST_F(KeptFiles, TheOldestGoFirstAndOthersStay) {
+  const auto young = put(patient(1), 100, 1), old = put(patient(2), 100, 30),
+             older = put(patient(3), 100, 40), left = put('.' + patient(4) + ".part-17-0", 100, 50),
+             foreign = put("notes.glb", 1000, 90);
+  boundKept(here_.path(), 400);
+  EXPECT_TRUE(std::filesystem::exists(left));
+  boundKept(here_.path(), 299);
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_FALSE(std::filesystem::exists(older));
+  EXPECT_TRUE(std::filesystem::exists(old));
+  EXPECT_TRUE(std::filesystem::exists(young));
+  EXPECT_TRUE(std::filesystem::exists(foreign));
+  boundKept(here_.path() / "nowhere", 0);
+}
+
+TEST_F(KeptFiles, ProgramsMayBoundThemAtOnce) {
+  for (int i = 0; i < 200; ++i) put(patient(i), 10, i);
+  std::vector<std::thread> programs;
+  for (int i = 0; i < 4; ++i) programs.emplace_back([this] { boundKept(here_.path(), 500); });
+  for (std::thread& program : programs) program.join();
+  EXPECT_LE(bytes(), 500u);
+  EXPECT_TRUE(std::filesystem::exists(here_.path() / patient(0)));
 }
 
 }  // namespace

@@ -12,6 +12,11 @@
 namespace palpa::statistics {
 namespace {
 
+BootstrapInterval meanInterval(const std::vector<double>& values,
+                               const BootstrapSettings& settings = {}) {
+  return bootstrapMeans({values}, settings).at(0);
+}
+
 TEST(Sample, Describes) {
   const Description d = describe({4, 1, 3, 2, 10});
   EXPECT_EQ(d.n, 5u);
@@ -100,15 +105,37 @@ TEST(Assumptions, AreSaidInWords) {
 
 TEST(Bootstrap, SameSeedSameInterval) {
   const std::vector<double> values{3, 5, 8, 1, 9, 4, 4, 7};
-  const BootstrapInterval a = bootstrapMean(values), b = bootstrapMean(values);
+  const BootstrapInterval a = meanInterval(values), b = meanInterval(values);
   EXPECT_EQ(a.low, b.low);
   EXPECT_EQ(a.high, b.high);
-  EXPECT_NE(bootstrapMean(values, {.seed = 2}).low, a.low);
+  EXPECT_NE(meanInterval(values, {.seed = 2}).low, a.low);
   EXPECT_LT(a.low, a.value);
   EXPECT_GT(a.high, a.value);
-  EXPECT_EQ(bootstrapMean({4, 4, 4}).low, 4);
-  EXPECT_THROW(bootstrapMean({}), Error);
-  EXPECT_THROW(bootstrapMean({1}, {.draws = 10}), Error);
+  EXPECT_EQ(meanInterval({4, 4, 4}).low, 4);
+  EXPECT_THROW(meanInterval({}), Error);
+  EXPECT_THROW(meanInterval({1}, {.draws = 10}), Error);
+}
+
+/// Samples of all sizes, more than are drawn at once, in any order: as each alone, computed the
+/// long way.
+TEST(Bootstrap, MeansTogetherAreThoseOfEachAlone) {
+  RandomStream random = RandomStream::ofSeed(12);
+  Samples samples;
+  for (int i = 0; i < 90; ++i) {
+    samples.emplace_back(i % 3 ? 5 : 1 + static_cast<std::size_t>(i) % 40);
+    for (double& v : samples.back())
+      v = i % 2 ? std::floor(3 * random.openUniform()) : 1000 + random.openNormal();
+  }
+  const std::vector<BootstrapInterval> together = bootstrapMeans(samples);
+  ASSERT_EQ(together.size(), samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const BootstrapInterval alone =
+        bootstrap({samples[i]}, [](const Samples& s) { return meanOf(s[0]); });
+    EXPECT_EQ(together[i].value, alone.value);
+    EXPECT_NEAR(together[i].low, alone.low, 1e-9 * (1 + std::abs(alone.low))) << i;
+    EXPECT_NEAR(together[i].high, alone.high, 1e-9 * (1 + std::abs(alone.high))) << i;
+  }
+  EXPECT_TRUE(bootstrapMeans({}).empty());
 }
 
 /// Share of drawn samples of a skewed distribution (exponential, mean 1) whose interval of the mean
@@ -121,7 +148,7 @@ TEST(Bootstrap, HoldsTheMeanOfASkewedDistributionNearlyAsOftenAsSaid) {
     std::vector<double> values(30);
     for (double& v : values) v = -std::log(random.openUniform());
     const BootstrapInterval interval =
-        bootstrapMean(values, {.draws = 500, .seed = static_cast<std::uint64_t>(i)});
+        meanInterval(values, {.draws = 500, .seed = static_cast<std::uint64_t>(i)});
     held += interval.low <= 1 && 1 <= interval.high;
   }
   EXPECT_GT(held / static_cast<double>(kSamples),

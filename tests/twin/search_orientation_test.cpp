@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "anatomy/base/random.h"
-#include "apps/twin/searching_hand.h"
+#include "apps/twin/feeling_hands.h"
 
 namespace palpa::twin {
 namespace {

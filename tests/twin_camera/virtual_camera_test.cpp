@@ -109,6 +109,45 @@ TEST(VirtualCamera, RefusesWhatCannotBe) {
   EXPECT_THROW(VirtualCamera(benchLens(), {0, 4, 0.03, 0.0075, 0}, {}, 1), UsageError);
 }
 
+/// Pictures decide poses, and poses what a simulated person does: the drawing may become cheaper,
+/// but not another one.
+TEST(TextureLookUp, IsThatOfOpenCvToTheBit) {
+  constexpr int kRow = 1000;
+  cv::Mat texture(61, 97, CV_8U), x(1, kRow, CV_32F), y(1, kRow, CV_32F);
+  for (int v = 0; v < texture.rows; ++v)
+    for (int u = 0; u < texture.cols; ++u)
+      texture.at<unsigned char>(v, u) =
+          static_cast<unsigned char>(picture::randomBits(1, std::uint64_t(97 * v + u)) >> 56);
+  std::vector<std::int32_t> column(kRow), row(kRow);
+  for (std::uint64_t round = 0; round < 20; ++round) {
+    for (int u = 0; u < kRow; ++u) {
+      const auto draw = [&](std::uint64_t i) {
+        const double place = -40 + 180 * picture::uniform(2 + round, 2 * std::uint64_t(u) + i);
+        // In even rounds halfway between two parts of a texel, where rounding has to choose.
+        return float(round % 2 ? place : std::floor(64 * place) / 64);
+      };
+      x.at<float>(u) = draw(0);
+      y.at<float>(u) = draw(1);
+    }
+    cv::Mat expected, found(1, kRow, CV_8U);
+    cv::remap(texture, expected, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    picture::castRow(Eigen::Matrix3f::Identity(), x.ptr<float>(), y.ptr<float>(), kRow,
+                     column.data(), row.data());
+    picture::readRow(texture, column.data(), row.data(), kRow, found.ptr<unsigned char>());
+    EXPECT_TRUE(same(found, expected)) << round;
+  }
+}
+
+TEST(TextureLookUp, SeesNothingBehindTheCamera) {
+  Eigen::Matrix3f H = Eigen::Matrix3f::Identity();
+  H(2, 2) = -1;
+  const std::vector<float> x{0.5F, 0.25F}, y{0.125F, 2};
+  std::vector<std::int32_t> column{7, 7}, row{7, 7};
+  picture::castRow(H, x.data(), y.data(), 2, column.data(), row.data());
+  EXPECT_EQ(column, std::vector<std::int32_t>(2, 0));
+  EXPECT_EQ(row, std::vector<std::int32_t>(2, 0));
+}
+
 TEST(NoiseBank, IsNearlyGaussianWithTheStatedDeviation) {
   const auto bank = picture::noiseBank(3, 48, 1 << 18);
   double m2 = 0, m4 = 0, mean = 0;

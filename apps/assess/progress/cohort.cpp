@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "anatomy/base/error.h"
 #include "apps/assess/progress/competence.h"
@@ -13,45 +14,64 @@ namespace {
 constexpr std::size_t kLatest = 5, kFewestForInterval = 3;
 constexpr std::size_t kFailuresInARow = 3;
 
-std::vector<double> lastKnown(const Series& series, const std::string& metric, std::size_t most) {
+std::vector<double> lastKnown(const PracticeView& practice, std::size_t figure, std::size_t most) {
   std::vector<double> known;
-  for (const double value : series.values(metric))
-    if (std::isfinite(value)) known.push_back(value);
-  if (known.size() > most)
-    known.erase(known.begin(), known.end() - static_cast<std::ptrdiff_t>(most));
+  for (std::size_t i = practice.trials.size(); i-- > 0 && known.size() < most;)
+    if (const double value = practice.trials[i].figures[figure]; std::isfinite(value))
+      known.push_back(value);
+  std::reverse(known.begin(), known.end());
   return known;
 }
 
-/// Of a mean; none for too few.
-std::optional<std::pair<double, double>> intervalOf(const std::vector<double>& values) {
-  if (values.size() < kFewestForInterval) return std::nullopt;
-  const statistics::BootstrapInterval interval = statistics::bootstrapMean(values);
-  return std::pair{interval.low, interval.high};
+using Interval = std::optional<std::pair<double, double>>;
+
+/// Of the means of these samples; none for too few values.
+std::vector<Interval> intervalsOf(const statistics::Samples& samples) {
+  statistics::Samples enough;
+  for (const std::vector<double>& sample : samples)
+    if (sample.size() >= kFewestForInterval) enough.push_back(sample);
+  const std::vector<statistics::BootstrapInterval> theirs = statistics::bootstrapMeans(enough);
+  std::vector<Interval> all;
+  auto next = theirs.begin();
+  for (const std::vector<double>& sample : samples) {
+    all.emplace_back();
+    if (sample.size() < kFewestForInterval) continue;
+    all.back() = {next->low, next->high};
+    ++next;
+  }
+  return all;
+}
+
+std::vector<GroupMean> groupMeans(const statistics::Samples& of_trainees) {
+  const std::vector<Interval> intervals = intervalsOf(of_trainees);
+  std::vector<GroupMean> means;
+  for (std::size_t i = 0; i < of_trainees.size(); ++i)
+    means.push_back({statistics::meanOf(of_trainees[i]), of_trainees[i].size(), intervals[i]});
+  return means;
 }
 
 std::string times(int count, int of) {
   return std::to_string(count) + " of the last " + std::to_string(of) + " trials";
 }
 
-bool failedLately(const Series& own) {
-  if (own.trials.size() < kFailuresInARow) return false;
-  return std::all_of(own.trials.end() - static_cast<std::ptrdiff_t>(kFailuresInARow),
-                     own.trials.end(), failed);
+bool failedLately(const std::vector<bool>& failures) {
+  return failures.size() >= kFailuresInARow &&
+         std::all_of(failures.end() - static_cast<std::ptrdiff_t>(kFailuresInARow), failures.end(),
+                     [](bool failure) { return failure; });
 }
 
-std::vector<std::string> reasonsFor(const Series& own, const statistics::CusumRates& rates) {
+std::vector<std::string> reasonsFor(const PracticeView& own, const statistics::CusumRates& rates) {
   std::vector<std::string> reasons;
   for (const ErrorCount& count : errorsIn(own))
     if (const std::string metric = count.kind->metric;
         count.recurs() && (metric == "col_lung" || metric == "col_artery"))
       reasons.push_back(count.kind->words + std::string(" in ") +
-                        times(count.lately, count.lately_of));
-  std::vector<bool> failures;
-  for (const PracticeTrial& trial : own.trials) failures.push_back(failed(trial));
+                        times(count.lately.with, count.lately.of));
+  const std::vector<bool> failures = failuresIn(own);
   if (const Competence c = competenceOf(failures, rates); c.lost)
     reasons.push_back("the CUSUM found the unacceptable failure rate at trial " +
                       std::to_string(*c.lost));
-  if (failedLately(own))
+  if (failedLately(failures))
     reasons.push_back("the last " + std::to_string(kFailuresInARow) + " trials failed");
   return reasons;
 }
@@ -59,33 +79,31 @@ std::vector<std::string> reasonsFor(const Series& own, const statistics::CusumRa
 }  // namespace
 
 GroupMean groupMean(const std::vector<double>& of_trainees) {
-  return {statistics::meanOf(of_trainees), of_trainees.size(), intervalOf(of_trainees)};
+  return groupMeans({of_trainees}).front();
 }
 
 std::vector<CommonError> commonErrors(const Series& group) {
   std::vector<CommonError> common;
-  const std::vector<Series> trainees = byTrainee(group);
+  statistics::Samples shares;  ///< of each error
+  const std::vector<PracticeView> trainees = byTrainee(group);
   for (const ErrorKind& kind : errorKinds(group.engine)) {
     CommonError error{&kind, 0, 0, 0, 0, {}};
-    std::vector<double> shares;
-    for (const Series& own : trainees) {
-      int with = 0, of = 0;
-      for (const PracticeTrial& trial : own.trials) {
-        if (!std::isfinite(trial.metric(kind.metric))) continue;
-        ++of;
-        with += happened(kind, trial) ? 1 : 0;
-      }
-      if (of == 0) continue;
-      error.trials += of;
-      error.with += with;
+    std::vector<double> share;
+    for (const PracticeView& own : trainees) {
+      const Happened happened = happenedIn(kind, own.trials);
+      if (happened.of == 0) continue;
+      error.trials += happened.of;
+      error.with += happened.with;
       ++error.trainees;
-      error.trainees_with += with > 0 ? 1 : 0;
-      shares.push_back(static_cast<double>(with) / of);
+      error.trainees_with += happened.with > 0 ? 1 : 0;
+      share.push_back(static_cast<double>(happened.with) / happened.of);
     }
     if (error.with == 0) continue;
-    error.share = groupMean(shares);
     common.push_back(error);
+    shares.push_back(std::move(share));
   }
+  const std::vector<GroupMean> means = groupMeans(shares);
+  for (std::size_t i = 0; i < common.size(); ++i) common[i].share = means[i];
   std::stable_sort(common.begin(), common.end(), [](const CommonError& a, const CommonError& b) {
     return a.share.mean > b.share.mean;
   });
@@ -94,39 +112,68 @@ std::vector<CommonError> commonErrors(const Series& group) {
 
 std::vector<TraineeFigure> traineeFigures(const Series& group, const std::string& metric) {
   std::vector<TraineeFigure> figures;
-  for (const Series& own : byTrainee(group)) {
-    TraineeFigure figure{own.trials.front().trainee, lastKnown(own, metric, kLatest), 0, {}};
-    if (figure.values.empty()) continue;
-    figure.mean = statistics::meanOf(figure.values);
-    figure.interval = intervalOf(figure.values);
-    figures.push_back(std::move(figure));
+  statistics::Samples samples;
+  const std::size_t number = figureNumber(metric);
+  for (const PracticeView& own : byTrainee(group)) {
+    std::vector<double> values = lastKnown(own, number, kLatest);
+    if (values.empty()) continue;
+    figures.push_back({own.trainee(), values, statistics::meanOf(values), {}});
+    samples.push_back(std::move(values));
   }
+  const std::vector<Interval> intervals = intervalsOf(samples);
+  for (std::size_t i = 0; i < figures.size(); ++i) figures[i].interval = intervals[i];
   return figures;
 }
 
-GroupCurve groupCurve(const Series& group, const std::string& metric) {
-  GroupCurve curve;
-  std::size_t longest = 0;
-  for (const Series& own : byTrainee(group)) {
-    curve.trainees.push_back(own.trials.front().trainee);
-    curve.curves.push_back(own.values(metric));
-    longest = std::max(longest, own.trials.size());
-  }
-  for (std::size_t n = 0; n < longest; ++n) {
+namespace {
+
+/// The values at trial 1, 2, ..., as long as enough trainees have one.
+statistics::Samples valuesAtTrials(const std::vector<std::vector<double>>& curves) {
+  statistics::Samples at_trial;
+  for (std::size_t n = 0;; ++n) {
     std::vector<double> values;
-    for (const std::vector<double>& own : curve.curves)
+    for (const std::vector<double>& own : curves)
       if (n < own.size() && std::isfinite(own[n])) values.push_back(own[n]);
-    if (values.size() < kFewestForInterval || 2 * values.size() < curve.curves.size()) break;
-    curve.mean.push_back(groupMean(values));
+    if (values.size() < kFewestForInterval || 2 * values.size() < curves.size()) return at_trial;
+    at_trial.push_back(std::move(values));
   }
-  return curve;
+}
+
+}  // namespace
+
+GroupCurve groupCurve(const Series& group, const std::string& metric) {
+  return groupCurves(group, {metric}).front();
+}
+
+std::vector<GroupCurve> groupCurves(const Series& group, const std::vector<std::string>& metrics) {
+  std::vector<GroupCurve> all;
+  std::vector<std::size_t> lengths;
+  statistics::Samples together;
+  for (const std::string& metric : metrics) {
+    GroupCurve& curve = all.emplace_back();
+    for (const PracticeView& own : byTrainee(group)) {
+      curve.trainees.push_back(own.trainee());
+      curve.curves.push_back(own.values(metric));
+    }
+    statistics::Samples at_trial = valuesAtTrials(curve.curves);
+    lengths.push_back(at_trial.size());
+    std::move(at_trial.begin(), at_trial.end(), std::back_inserter(together));
+  }
+  const std::vector<GroupMean> means = groupMeans(together);
+  auto next = means.begin();
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const auto end = next + static_cast<std::ptrdiff_t>(lengths[m]);
+    all[m].mean.assign(next, end);
+    next = end;
+  }
+  return all;
 }
 
 std::vector<Attention> whoNeedsAttention(const Series& group, const statistics::CusumRates& rates) {
   std::vector<Attention> all;
-  for (const Series& own : byTrainee(group))
+  for (const PracticeView& own : byTrainee(group))
     if (std::vector<std::string> reasons = reasonsFor(own, rates); !reasons.empty())
-      all.push_back({own.trials.front().trainee, std::move(reasons)});
+      all.push_back({own.trainee(), std::move(reasons)});
   std::stable_sort(all.begin(), all.end(), [](const Attention& a, const Attention& b) {
     return a.reasons.size() > b.reasons.size();
   });
@@ -135,8 +182,9 @@ std::vector<Attention> whoNeedsAttention(const Series& group, const statistics::
 
 std::optional<Reliability> reliabilityOf(const Series& group, const std::string& metric) {
   std::vector<std::vector<double>> rows;
-  for (const Series& own : byTrainee(group))
-    if (std::vector<double> cases = lastKnown(own, metric, kFewestCases);
+  const std::size_t number = figureNumber(metric);
+  for (const PracticeView& own : byTrainee(group))
+    if (std::vector<double> cases = lastKnown(own, number, kFewestCases);
         cases.size() == kFewestCases)
       rows.push_back(std::move(cases));
   if (rows.size() < 2) return std::nullopt;

@@ -49,6 +49,8 @@ struct GroupCurve {
   std::vector<GroupMean> mean;  ///< at trial 1, 2, ...
 };
 GroupCurve groupCurve(const Series& group, const std::string& metric);
+/// Of several metrics at once, which costs little more than of one.
+std::vector<GroupCurve> groupCurves(const Series& group, const std::vector<std::string>& metrics);
 
 /// Somebody to look after, and why, in words.
 struct Attention {

@@ -78,27 +78,24 @@ const std::vector<ErrorKind>& errorKinds(std::optional<Engine> engine) {
   return engine ? kKindsOfEngines.at(*engine) : kNone;
 }
 
-bool happened(const ErrorKind& kind, const PracticeTrial& trial) {
-  const double value = trial.metric(kind.metric);
-  return kind.below ? value < kind.above : value > kind.above;
+Happened happenedIn(const ErrorKind& kind, std::span<const PracticeTrial> trials) {
+  const std::size_t number = figureNumber(kind.metric);
+  Happened happened;
+  for (const PracticeTrial& trial : trials) {
+    const double value = trial.figures[number];
+    if (!std::isfinite(value)) continue;
+    ++happened.of;
+    happened.with += (kind.below ? value < kind.above : value > kind.above) ? 1 : 0;
+  }
+  return happened;
 }
 
-std::vector<ErrorCount> errorsIn(const Series& series) {
+std::vector<ErrorCount> errorsIn(const PracticeView& practice) {
   std::vector<ErrorCount> counts;
-  const std::size_t late = series.trials.size() - std::min(series.trials.size(), kLately);
-  for (const ErrorKind& kind : errorKinds(series.engine)) {
-    ErrorCount count{&kind, 0, 0, 0, 0};
-    for (std::size_t i = 0; i < series.trials.size(); ++i) {
-      if (!std::isfinite(series.trials[i].metric(kind.metric))) continue;
-      const int hit = happened(kind, series.trials[i]) ? 1 : 0;
-      count.with += hit;
-      ++count.of;
-      if (i < late) continue;
-      count.lately += hit;
-      ++count.lately_of;
-    }
-    if (count.with > 0) counts.push_back(count);
-  }
+  const auto late = practice.trials.last(std::min(practice.trials.size(), kLately));
+  for (const ErrorKind& kind : errorKinds(practice.engine))
+    if (const Happened all = happenedIn(kind, practice.trials); all.with > 0)
+      counts.push_back({&kind, all, happenedIn(kind, late)});
   return counts;
 }
 

@@ -20,17 +20,21 @@ struct ErrorKind {
 
 /// Those of an engine, the gravest first.
 const std::vector<ErrorKind>& errorKinds(std::optional<training::Engine> engine);
-bool happened(const ErrorKind& kind, const PracticeTrial& trial);
+
+/// In how many trials of several an error happened.
+struct Happened {
+  int with = 0, of = 0;  ///< trials with it, trials in which it can be told
+};
+Happened happenedIn(const ErrorKind& kind, std::span<const PracticeTrial> trials);
 
 /// How often an error happened in a series.
 struct ErrorCount {
   const ErrorKind* kind = nullptr;
-  int with = 0, of = 0;           ///< trials with it, trials in which it can be told
-  int lately = 0, lately_of = 0;  ///< among the last five
-  bool recurs() const { return lately >= 2; }
+  Happened all, lately;  ///< lately: among the last five
+  bool recurs() const { return lately.with >= 2; }
 };
 /// Every kind that happened at least once, in the order of the kinds.
-std::vector<ErrorCount> errorsIn(const Series& series);
+std::vector<ErrorCount> errorsIn(const PracticeView& practice);
 
 /// What a part of the score costs, a trial.
 struct Cost {

@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "anatomy/base/error.h"
+
 namespace palpa::progress {
 
 using training::Engine;
@@ -18,30 +20,106 @@ bool earlier(const PracticeTrial& a, const PracticeTrial& b) {
   return std::tie(a.trainee, a.arrival, a.number) < std::tie(b.trainee, b.arrival, b.number);
 }
 
+/// In the order of their names.
+constexpr std::array<std::string_view, kFigures> kKept{"back_wall_punctures",
+                                                       "chosen",
+                                                       "closest_artery_at_s",
+                                                       "closest_artery_mm",
+                                                       "closest_pleura_at_s",
+                                                       "closest_pleura_mm",
+                                                       "col_artery",
+                                                       "col_lung",
+                                                       "col_rib",
+                                                       "col_vein",
+                                                       "coverage_deep_pct",
+                                                       "coverage_light_pct",
+                                                       "coverage_medium_pct",
+                                                       "econ_mean_mm",
+                                                       "econ_var_mm2",
+                                                       "false_alarms",
+                                                       "first_pass_success",
+                                                       "grips",
+                                                       "needle_passes",
+                                                       "over_force_s",
+                                                       "path_length_mm",
+                                                       "peak_force_N",
+                                                       "phase_1_mm",
+                                                       "phase_2",
+                                                       "rotational_actions",
+                                                       "sensitivity_pct",
+                                                       "specificity_pct",
+                                                       "speed_at_vein_mm_s",
+                                                       "success",
+                                                       "time_s",
+                                                       "too_hard_pct",
+                                                       "too_light_pct",
+                                                       "total",
+                                                       "translational_actions"};
+static_assert(std::is_sorted(kKept.begin(), kKept.end()));
+
 }  // namespace
 
-double PracticeTrial::metric(const std::string& name) const {
-  for (const metrics::MetricValue& m : metrics)
-    if (m.name == name) return m.value;
-  return std::numeric_limits<double>::quiet_NaN();
+std::size_t keptNumber(std::string_view metric) {
+  const auto found = std::lower_bound(kKept.begin(), kKept.end(), metric);
+  return found != kKept.end() && *found == metric ? static_cast<std::size_t>(found - kKept.begin())
+                                                  : kNoFigure;
+}
+
+std::size_t figureNumber(std::string_view metric) {
+  const std::size_t number = keptNumber(metric);
+  if (number == kNoFigure && metrics::metricNamed(metric))
+    throw Error("is not kept for pages of practice", std::string(metric), "Report this");
+  return number;
+}
+
+Figures::Figures() { values_.fill(std::numeric_limits<double>::quiet_NaN()); }
+
+Figures::Figures(std::initializer_list<metrics::MetricValue> values) : Figures() {
+  for (const metrics::MetricValue& m : values) set(m.name, m.value);
+}
+
+bool PracticeTrial::succeeded() const {
+  static const std::size_t kSuccess = figureNumber("success");
+  return figures[kSuccess] == 1;
 }
 
 bool counts(const PracticeTrial& trial) {
   return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided &&
-         !trial.metrics.empty();
+         !trial.figures.empty();
 }
 
 bool failed(const PracticeTrial& trial) {
+  static const std::size_t kLung = figureNumber("col_lung"), kArtery = figureNumber("col_artery"),
+                           kPasses = figureNumber("needle_passes");
   if (!trial.succeeded()) return true;
   return trial.engine == Engine::needle &&
-         (trial.metric("col_lung") > 0 || trial.metric("col_artery") > 0 ||
-          trial.metric("needle_passes") > kMostPasses);
+         (trial.figures[kLung] > 0 || trial.figures[kArtery] > 0 ||
+          trial.figures[kPasses] > kMostPasses);
 }
 
-std::vector<double> Series::values(const std::string& metric) const {
+PracticeView::PracticeView(const Series& series) : engine(series.engine), trials(series.trials) {}
+
+std::vector<double> PracticeView::values(std::string_view metric) const {
+  const std::size_t number = figureNumber(metric);
   std::vector<double> all;
-  for (const PracticeTrial& trial : trials) all.push_back(trial.metric(metric));
+  all.reserve(trials.size());
+  for (const PracticeTrial& trial : trials) all.push_back(trial.figures[number]);
   return all;
+}
+
+std::size_t PracticeView::successes() const {
+  return static_cast<std::size_t>(std::count_if(
+      trials.begin(), trials.end(), [](const PracticeTrial& t) { return t.succeeded(); }));
+}
+
+std::vector<bool> failuresIn(const PracticeView& practice) {
+  std::vector<bool> failures;
+  for (const PracticeTrial& trial : practice.trials) failures.push_back(failed(trial));
+  return failures;
+}
+
+std::vector<double> Series::values(std::string_view metric) const {
+  return PracticeView(*this).values(metric);
 }
 
 std::string Series::name() const {
@@ -49,19 +127,20 @@ std::string Series::name() const {
          (condition.empty() ? "" : ", " + condition) + (simulated ? ", simulated" : "");
 }
 
-std::vector<Series> seriesOf(const std::vector<PracticeTrial>& trials) {
+std::vector<Series> seriesOf(std::vector<PracticeTrial> trials) {
   std::map<std::tuple<bool, std::string, bool, std::string>, Series> all;
-  for (const PracticeTrial& trial : trials) {
+  for (PracticeTrial& trial : trials) {
     if (!counts(trial)) continue;
     Series& series = all[{trial.simulated, trial.task, !trial.force_feedback, trial.condition}];
     if (series.trials.empty())
       series = {trial.task,      trial.engine,         trial.condition,
                 trial.simulated, trial.force_feedback, {}};
-    series.trials.push_back(trial);
+    series.trials.push_back(std::move(trial));
   }
   std::vector<Series> sorted;
   for (auto& [key, series] : all) {
-    std::stable_sort(series.trials.begin(), series.trials.end(), earlier);
+    if (!std::is_sorted(series.trials.begin(), series.trials.end(), earlier))
+      std::stable_sort(series.trials.begin(), series.trials.end(), earlier);
     sorted.push_back(std::move(series));
   }
   std::stable_sort(sorted.begin(), sorted.end(), [](const Series& a, const Series& b) {
@@ -70,14 +149,12 @@ std::vector<Series> seriesOf(const std::vector<PracticeTrial>& trials) {
   return sorted;
 }
 
-std::vector<Series> byTrainee(const Series& series) {
-  std::vector<Series> all;
-  for (const PracticeTrial& trial : series.trials) {
-    if (all.empty() || all.back().trials.front().trainee != trial.trainee) {
-      all.push_back(series);
-      all.back().trials.clear();
-    }
-    all.back().trials.push_back(trial);
+std::vector<PracticeView> byTrainee(const Series& series) {
+  std::vector<PracticeView> all;
+  const std::span<const PracticeTrial> trials(series.trials);
+  for (std::size_t from = 0, to = 0; from < trials.size(); from = to) {
+    while (to < trials.size() && trials[to].trainee == trials[from].trainee) ++to;
+    all.emplace_back(series.engine, trials.subspan(from, to - from));
   }
   return all;
 }
@@ -95,10 +172,9 @@ std::string leftOut(const std::vector<PracticeTrial>& trials) {
   return words;
 }
 
-std::optional<Engine> engineOfFigures(const std::vector<metrics::MetricValue>& metrics) {
+std::optional<Engine> engineOfFigures(const std::vector<std::string>& metrics) {
   const auto has = [&](const char* name) {
-    return std::any_of(metrics.begin(), metrics.end(),
-                       [&](const metrics::MetricValue& m) { return m.name == name; });
+    return std::find(metrics.begin(), metrics.end(), name) != metrics.end();
   };
   for (const auto& [name, engine] :
        {std::pair{"tissue_time_s", Engine::needle}, std::pair{"presses", Engine::palpation},

@@ -28,8 +28,10 @@ BootstrapInterval bootstrap(const Samples& samples,
                             const std::function<double(const Samples&)>& figure,
                             const BootstrapSettings& settings = {});
 
-/// The same of one sample's mean.
-BootstrapInterval bootstrapMean(const std::vector<double>& values,
-                                const BootstrapSettings& settings = {});
+/// The same of the mean of each sample: every interval is the one that `bootstrap` gives of it
+/// alone (same draws; to rounding). Draws depend on a sample's size only, so those of one size
+/// share them: a thousand intervals cost little more than one.
+std::vector<BootstrapInterval> bootstrapMeans(const Samples& samples,
+                                              const BootstrapSettings& settings = {});
 
 }  // namespace palpa::statistics

@@ -50,8 +50,12 @@ Moments momentsOf(const std::vector<double>& values, const std::string& where) {
 
 double interpolatedQuantile(std::vector<double> values, double q) {
   if (values.empty()) return kNone;
-  std::sort(values.begin(), values.end());
-  return between(values, std::clamp(q, 0.0, 1.0));
+  const double place = std::clamp(q, 0.0, 1.0) * (static_cast<double>(values.size()) - 1);
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), below, values.end());
+  const double above =
+      below + 1 == values.end() ? *below : *std::min_element(below + 1, values.end());
+  return *below + (place - std::floor(place)) * (above - *below);
 }
 
 Description describe(const std::vector<double>& values) {

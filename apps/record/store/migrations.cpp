@@ -4,6 +4,9 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "apps/record/store/metric_sets.h"
 
 namespace palpa::record {
 namespace {
@@ -45,9 +48,27 @@ CREATE TABLE deleted_sessions(
 );
 )sql";
 
+// Of kSteps: a trial's metrics stand beside it, in place of a row for each in `metrics`.
+const char* const kMetricSets = R"sql(
+CREATE TABLE metric_sets(
+  digest TEXT PRIMARY KEY,             -- SHA-256 of the names
+  names  TEXT NOT NULL                 -- "col_lung,success,time_s": in this order
+);
+
+ALTER TABLE trials ADD COLUMN metric_set    TEXT NOT NULL DEFAULT '';   -- '' where it has none
+ALTER TABLE trials ADD COLUMN metric_values TEXT NOT NULL DEFAULT '';   -- "0,1,,20.5": of these names
+)sql";
+
+/// SQL; what the rows that are there need beside it; SQL after that.
+struct Step {
+  const char* sql;
+  void (*rows)(SqlConnection&) = nullptr;
+  const char* after = nullptr;
+};
+
 // Step i brings version i to i + 1. A step that was published is never changed; a change of the
 // tables is a further step.
-const char* const kSteps[] = {R"sql(
+const Step kSteps[] = {{R"sql(
 CREATE TABLE palpa_schema(version BIGINT NOT NULL);
 INSERT INTO palpa_schema(version) VALUES(0);
 
@@ -133,8 +154,8 @@ CREATE TABLE events(
   PRIMARY KEY(session, number, ordinal),
   FOREIGN KEY(session, number) REFERENCES trials(session, number) ON DELETE CASCADE
 );
-)sql",
-                              R"sql(
+)sql"},
+                       {R"sql(
 CREATE TABLE studies(
   study           TEXT PRIMARY KEY,     -- the protocol's id
   protocol_sha256 TEXT NOT NULL,        -- of its file when the study began
@@ -172,8 +193,10 @@ CREATE TABLE answers(
   PRIMARY KEY(study, trainee, session, item),
   FOREIGN KEY(study, trainee) REFERENCES enrolments(study, trainee) ON DELETE CASCADE
 );
-)sql",
-                              kRatings, kDeletions};
+)sql"},
+                       {kRatings},
+                       {kDeletions},
+                       {kMetricSets, packMetricRows, "DROP TABLE metrics"}};
 
 /// Of the newest version.
 const std::vector<std::pair<std::string, std::string>> kTables{
@@ -188,9 +211,10 @@ const std::vector<std::pair<std::string, std::string>> kTables{
      "uuid,trainee,arrival,started_utc,software,task,station,simulated,study,slot,evidence,"
      "evidence_sha256,facts_json"},
     {"calibrations", "session,name,made_utc,sha256,verdict"},
+    {"metric_sets", "digest,names"},
     {"trials",
-     "session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_json"},
-    {"metrics", "session,number,name,value"},
+     "session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_json,"
+     "metric_set,metric_values"},
     {"events", "session,number,ordinal,t_ns,kind,text,value"},
     {"studies", "study,protocol_sha256,seed,began_utc"},
     {"study_groups", "study,group_name,given"},
@@ -234,26 +258,38 @@ int schemaOf(SqlConnection& connection) {
   return static_cast<int>(version);
 }
 
+namespace {
+
+/// Of tables that are gone. What cannot be given back now is with the next deletion.
+void giveBackSpace(SqlConnection& connection) {
+  try {
+    connection.leaveNoTrace();
+  } catch (const Error&) {
+    return;
+  }
+}
+
+}  // namespace
+
 int migrate(SqlConnection& connection, int version) {
   if (const int found = schemaOf(connection); found >= version) return found;
   SqlTransaction transaction(connection);
   connection.lockSchema();
   const int found = schemaOf(connection);  // again: another station may have been quicker
   for (int step = found; step < version; ++step) {
-    connection.script(kSteps[step]);
+    connection.script(kSteps[step].sql);
+    if (kSteps[step].rows) kSteps[step].rows(connection);
+    if (kSteps[step].after) connection.script(kSteps[step].after);
     connection.query("UPDATE palpa_schema SET version=$1", {std::int64_t{step + 1}});
   }
   transaction.commit();
+  if (found > 0) giveBackSpace(connection);
   return found;
 }
 
 namespace {
 
-std::string placeholders(std::size_t count) {
-  std::string text;
-  for (std::size_t i = 1; i <= count; ++i) text += (i > 1 ? ",$" : "$") + std::to_string(i);
-  return text;
-}
+constexpr std::size_t kCopiedTogether = 500;  // rows: no more are held
 
 /// Its name, which every store that was ever opened has, is given up for that of the other.
 void requireEmpty(SqlConnection& store) {
@@ -269,18 +305,21 @@ void requireEmpty(SqlConnection& store) {
 std::size_t copyStore(SqlConnection& from, SqlConnection& to) {
   migrate(from);
   migrate(to);
-  SqlTransaction reading(from), writing(to);
-  from.freeze();
+  SqlTransaction reading(from, Access::read), writing(to);
   to.lockSchema();
   requireEmpty(to);
   std::size_t copied = 0;
   for (const std::string& table : tableNames()) {
-    const SqlRows rows = from.query("SELECT " + columnsOf(table) + " FROM " + table);
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      to.query("INSERT INTO " + table + "(" + columnsOf(table) + ") VALUES(" +
-                   placeholders(rows.row(r).size()) + ")",
-               rows.row(r));
-    copied += rows.size();
+    std::vector<std::vector<SqlValue>> together;
+    const auto rows = from.cursor("SELECT " + columnsOf(table) + " FROM " + table);
+    for (bool more = rows->next(); more;) {
+      together.push_back(rows->row());
+      more = rows->next();
+      if (more && together.size() < kCopiedTogether) continue;
+      insertRows(to, table, columnsOf(table), together);
+      copied += together.size();
+      together.clear();
+    }
   }
   writing.commit();
   return copied;

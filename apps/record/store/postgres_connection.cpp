@@ -1,6 +1,6 @@
-#include <cmath>
 #include <condition_variable>
 #include <cstdio>
+#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -43,12 +43,6 @@ std::string remedyFor(const std::string& reason) {
   if (reason.find("does not exist") != std::string::npos)
     return "Ask whoever runs the server to make it";
   return "Check network and server; trials are kept on this station and sent later";
-}
-
-std::string exactly(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
 }
 
 /// Hangs up on a server that has taken a request and says nothing: libpq waits for ever there.
@@ -150,22 +144,19 @@ class PostgresConnection final : public SqlConnection {
   }
 
   SqlRows query(const std::string& sql, const std::vector<SqlValue>& values) override {
-    return guarded([&] {
-      const std::vector<std::string> texts = textsOf(values);
-      std::vector<const char*> parameters;
-      for (std::size_t i = 0; i < values.size(); ++i)
-        parameters.push_back(isNothing(values[i]) ? nullptr : texts[i].c_str());
-      if (work_) return rowsOf(postgres::execute(*work_, sql, parameters));
-      pqxx::nontransaction alone(*connection_);
-      return rowsOf(postgres::execute(alone, sql, parameters));
-    });
+    return rowsOf(ask(sql, values));
+  }
+  std::unique_ptr<SqlCursor> cursor(const std::string& sql,
+                                    const std::vector<SqlValue>& values) override {
+    return std::make_unique<Cursor>(*this, sql, values);
   }
 
   void script(const std::string& statements) override {
     guarded([&] { work_->exec(statements); });
   }
-  void begin() override {
+  void begin(Access access) override {
     guarded([&] { work_ = std::make_unique<pqxx::work>(*connection_); });
+    if (access == Access::read) script("SET TRANSACTION ISOLATION LEVEL REPEATABLE READ READ ONLY");
   }
   void commit() override {
     const std::unique_ptr<pqxx::work> work = std::move(work_);
@@ -179,7 +170,6 @@ class PostgresConnection final : public SqlConnection {
     }
   }
   void lockSchema() override { query("SELECT pg_advisory_xact_lock($1)", {kSchemaLock}); }
-  void freeze() override { script("SET TRANSACTION ISOLATION LEVEL REPEATABLE READ"); }
   bool leaveNoTrace() override { return true; }
   bool hasTable(const std::string& name) override {
     return !query(
@@ -191,44 +181,59 @@ class PostgresConnection final : public SqlConnection {
   std::string place() const override { return "records server " + url_; }
 
  private:
-  static bool isNothing(const SqlValue& v) {
-    const auto* real = std::get_if<double>(&v);
-    return v.index() == 0 || (real && std::isnan(*real));
-  }
-
-  static std::vector<std::string> textsOf(const std::vector<SqlValue>& values) {
-    std::vector<std::string> texts;
-    for (const SqlValue& v : values) {
-      if (const auto* whole = std::get_if<std::int64_t>(&v))
-        texts.push_back(std::to_string(*whole));
-      else if (const auto* real = std::get_if<double>(&v))
-        texts.push_back(exactly(*real));
-      else if (const auto* text = std::get_if<std::string>(&v))
-        texts.push_back(*text);
-      else
-        texts.emplace_back();
+  /// Of the server: asked for a thousand rows, it keeps its place among them.
+  class Cursor final : public SqlCursor {
+   public:
+    Cursor(PostgresConnection& owner, const std::string& sql, const std::vector<SqlValue>& values)
+        : owner_(owner), name_("palpa_" + std::to_string(++owner.cursors_)) {
+      owner_.ask("DECLARE " + name_ + " NO SCROLL CURSOR FOR " + sql, values);
     }
-    return texts;
+    ~Cursor() override {
+      try {
+        if (owner_.work_) owner_.ask("CLOSE " + name_, {});
+      } catch (...) {  // it ends with its transaction
+      }
+    }
+    bool next() override {
+      if (++at_ < rows_.size()) return true;
+      rows_ = pqxx::result();  // given up before the next come
+      rows_ = owner_.ask("FETCH 1000 FROM " + name_, {});
+      at_ = 0;
+      return !rows_.empty();
+    }
+    std::string_view text(std::size_t column) const override {
+      const pqxx::field field = fieldOf(column);
+      return field.is_null() ? std::string_view() : std::string_view(field.c_str(), field.size());
+    }
+    std::int64_t integer(std::size_t column) const override {
+      return fieldOf(column).as<std::int64_t>(0);
+    }
+    double real(std::size_t column) const override {
+      return fieldOf(column).as<double>(std::numeric_limits<double>::quiet_NaN());
+    }
+    std::vector<SqlValue> row() const override { return postgres::valuesOf(rows_[at_]); }
+
+   private:
+    pqxx::field fieldOf(std::size_t column) const {
+      return rows_[at_][static_cast<pqxx::row::size_type>(column)];
+    }
+    PostgresConnection& owner_;
+    const std::string name_;
+    pqxx::result rows_;
+    pqxx::result::size_type at_ = 0;
+  };
+
+  pqxx::result ask(const std::string& sql, const std::vector<SqlValue>& values) {
+    return guarded([&] {
+      if (work_) return postgres::execute(*work_, sql, values);
+      pqxx::nontransaction alone(*connection_);
+      return postgres::execute(alone, sql, values);
+    });
   }
 
   static SqlRows rowsOf(const pqxx::result& result) {
-    constexpr pqxx::oid kInt8 = 20, kInt2 = 21, kInt4 = 23, kFloat8 = 701;
     SqlRows rows;
-    for (const pqxx::row& row : result) {
-      std::vector<SqlValue> values;
-      for (const pqxx::field& field : row) {
-        const pqxx::oid type = field.type();
-        if (field.is_null())
-          values.emplace_back(std::monostate{});
-        else if (type == kInt8 || type == kInt4 || type == kInt2)
-          values.emplace_back(field.as<std::int64_t>());
-        else if (type == kFloat8)
-          values.emplace_back(field.as<double>());
-        else
-          values.emplace_back(std::string(field.c_str(), field.size()));
-      }
-      rows.add(std::move(values));
-    }
+    for (const pqxx::row& row : result) rows.add(postgres::valuesOf(row));
     return rows;
   }
 
@@ -281,6 +286,7 @@ class PostgresConnection final : public SqlConnection {
   SilenceWatch silence_;
   std::unique_ptr<pqxx::connection> connection_;
   std::unique_ptr<pqxx::work> work_;
+  unsigned cursors_ = 0;  ///< made so far
 };
 
 }  // namespace

@@ -1,32 +1,20 @@
 #include "apps/record/store/record_store.h"
 
 #include <cctype>
-#include <charconv>
 #include <cstdio>
 #include <limits>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/sha256.h"
 #include "apps/record/store/migrations.h"
+#include "apps/record/store/record_reading.h"
 
 namespace palpa::record {
 namespace {
 
-constexpr std::size_t kSessionColumnCount = 13;
-
 Trainee traineeOf(const SqlRows& r, std::size_t i) {
   return {r.text(i, 0), r.text(i, 1), r.text(i, 2), r.text(i, 3),
           r.text(i, 4), r.text(i, 5), r.text(i, 6), r.text(i, 7)};
-}
-
-StoredSession sessionOf(const SqlRows& r, std::size_t i) {
-  return {r.text(i, 0),    r.text(i, 1),
-          r.integer(i, 2), r.text(i, 3),
-          r.text(i, 4),    r.text(i, 5),
-          r.text(i, 6),    r.integer(i, 7) != 0,
-          r.text(i, 8),    r.integer(i, 9),
-          r.text(i, 10),   r.text(i, 11),
-          r.text(i, 12),   {}};
 }
 
 std::vector<Trainee> traineesOf(const SqlRows& rows) {
@@ -38,15 +26,6 @@ std::vector<Trainee> traineesOf(const SqlRows& rows) {
 std::vector<SqlValue> valuesOf(const Trainee& t) {
   return {t.id,        t.group,       t.experience,   t.handedness,
           t.added_utc, t.consent_utc, t.research_utc, t.retain_until};
-}
-
-std::uint64_t seedOf(const std::string& digits, const SqlConnection& store) {
-  std::uint64_t seed = 0;
-  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
-  if (problem != std::errc() || end != digits.data() + digits.size())
-    throw Error("is damaged (a seed is not a number)", store.place(),
-                "Restore a backup: palpa records restore");
-  return seed;
 }
 
 void require(const Trainee& trainee) {
@@ -196,102 +175,75 @@ void RecordStore::insertSession(const StoredSession& s) {
                        {s.uuid, c.name, c.made_utc, c.sha256, c.verdict});
 }
 
-bool RecordStore::addTrial(const StoredSession& session, const StoredTrial& t) {
+bool RecordStore::addTrial(const StoredSession& session, const StoredTrial& trial) {
+  return addTrials(session, {trial}) > 0;
+}
+
+int RecordStore::addTrials(const StoredSession& session, const std::vector<StoredTrial>& trials) {
   SqlTransaction transaction(*connection_);
   requireSession(session);
-  const SqlRows added = connection_->query(
-      "INSERT INTO "
-      "trials(session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_"
-      "json) VALUES($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11) ON CONFLICT(session,number) DO NOTHING "
-      "RETURNING number",
-      {session.uuid, t.number, t.start_ns, t.end_ns, t.role, std::to_string(t.seed),
-       std::int64_t{t.force_feedback}, t.outcome, t.reason, std::int64_t{t.success}, t.score_json});
-  if (added.empty()) {
-    transaction.commit();
-    return false;
-  }
-  for (const Metric& m : t.metrics)
-    connection_->query("INSERT INTO metrics(session,number,name,value) VALUES($1,$2,$3,$4)",
-                       {session.uuid, t.number, m.name, m.value});
-  std::int64_t ordinal = 0;
-  for (const StoredEvent& e : t.events)
-    connection_->query(
-        "INSERT INTO events(session,number,ordinal,t_ns,kind,text,value) "
-        "VALUES($1,$2,$3,$4,$5,$6,$7)",
-        {session.uuid, t.number, ++ordinal, e.t_ns, e.kind, e.text, e.value});
+  int added = 0;
+  std::string kept;  // the set of metrics of the trial before
+  for (const StoredTrial& trial : trials) added += insertTrial(session.uuid, trial, kept) ? 1 : 0;
   transaction.commit();
+  return added;
+}
+
+bool RecordStore::insertTrial(const std::string& session, const StoredTrial& t, std::string& kept) {
+  const PackedMetrics metrics = packed(t.metrics);
+  if (metrics.set != kept) keepSet(*connection_, metrics);
+  kept = metrics.set;
+  const SqlRows added = connection_->query(
+      "INSERT INTO trials(" + columnsOf("trials") +
+          ") VALUES($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13) ON CONFLICT(session,number) DO "
+          "NOTHING RETURNING number",
+      {session, t.number, t.start_ns, t.end_ns, t.role, std::to_string(t.seed),
+       std::int64_t{t.force_feedback}, t.outcome, t.reason, std::int64_t{t.success}, t.score_json,
+       metrics.set, metrics.values});
+  if (added.empty()) return false;
+  std::vector<std::vector<SqlValue>> events;
+  for (const StoredEvent& e : t.events)
+    events.push_back({session, t.number, static_cast<std::int64_t>(events.size() + 1), e.t_ns,
+                      e.kind, e.text, e.value});
+  insertRows(*connection_, "events", columnsOf("events"), events);
   return true;
 }
 
 std::vector<StoredSession> RecordStore::sessions(const std::string& trainee) {
-  const SqlRows rows =
-      connection_->query("SELECT " + columnsOf("sessions") +
-                             " FROM sessions WHERE $1='' OR trainee=$1 ORDER BY trainee,arrival",
-                         {trainee});
+  SqlTransaction moment(*connection_, Access::read);
+  return sessionsOf(trainee);
+}
+
+/// Within a transaction.
+std::vector<StoredSession> RecordStore::sessionsOf(const std::string& trainee) {
   std::vector<StoredSession> all;
-  for (std::size_t i = 0; i < rows.size(); ++i) all.push_back(sessionOf(rows, i));
+  record::eachSession(*connection_, {.trainee = trainee},
+                      [&](const StoredSession& session) { all.push_back(session); });
   return all;
 }
 
 std::optional<StoredSession> RecordStore::session(const std::string& uuid) {
-  const SqlRows rows = connection_->query(
-      "SELECT " + columnsOf("sessions") + " FROM sessions WHERE uuid=$1", {uuid});
-  if (rows.empty()) return std::nullopt;
-  StoredSession session = sessionOf(rows, 0);
-  const SqlRows calibrations = connection_->query(
-      "SELECT name,made_utc,sha256,verdict FROM calibrations WHERE session=$1 ORDER BY name",
-      {uuid});
-  for (std::size_t i = 0; i < calibrations.size(); ++i)
-    session.calibrations.push_back({calibrations.text(i, 0), calibrations.text(i, 1),
-                                    calibrations.text(i, 2), calibrations.text(i, 3)});
-  return session;
+  SqlTransaction moment(*connection_, Access::read);
+  std::optional<StoredSession> found;
+  record::eachSession(*connection_, {.session = uuid},
+                      [&](const StoredSession& session) { found = session; });
+  return found;
 }
 
-std::vector<TrialWithSession> RecordStore::trials(const TrialFilter& f) {
-  const std::string where =
-      " WHERE ($1='' OR s.trainee=$1) AND ($2='' OR s.task=$2) AND ($3='' OR s.study=$3) AND "
-      "($4='' OR s.uuid=$4) AND ($5=-1 OR s.simulated=$5)";
-  const std::vector<SqlValue> values{f.trainee, f.task, f.study, f.session,
-                                     std::int64_t{f.simulated}};
-  SqlTransaction moment(*connection_);  // trials and their metrics must match
-  connection_->freeze();
-  const SqlRows rows = connection_->query(
-      "SELECT "
-      "s.uuid,s.trainee,s.arrival,s.started_utc,s.software,s.task,s.station,s.simulated,s.study,s."
-      "slot,s.evidence,s.evidence_sha256,s.facts_json,"
-      "t.number,t.start_ns,t.end_ns,t.role,t.seed,t.force_feedback,t.outcome,t.reason,t.success,t."
-      "score_json FROM sessions s JOIN trials t ON t.session=s.uuid" +
-          where + " ORDER BY s.trainee,s.arrival,t.number",
-      values);
-  const SqlRows metrics = connection_->query(
-      "SELECT m.session,m.number,m.name,m.value FROM sessions s JOIN metrics m ON "
-      "m.session=s.uuid" +
-          where + " ORDER BY s.trainee,s.arrival,m.number,m.name",
-      values);
+void RecordStore::eachTrial(const TrialFilter& filter,
+                            const std::function<void(const TrialWithSession&)>& visit) {
+  SqlTransaction moment(*connection_, Access::read);
+  record::eachTrial(*connection_, filter, visit);
+}
+
+std::vector<TrialWithSession> RecordStore::trials(const TrialFilter& filter) {
   std::vector<TrialWithSession> all;
-  std::size_t m = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    constexpr std::size_t c = kSessionColumnCount;
-    TrialWithSession entry{sessionOf(rows, i),
-                           {rows.integer(i, c),
-                            rows.integer(i, c + 1),
-                            rows.integer(i, c + 2),
-                            rows.text(i, c + 3),
-                            seedOf(rows.text(i, c + 4), *connection_),
-                            rows.integer(i, c + 5) != 0,
-                            rows.text(i, c + 6),
-                            rows.text(i, c + 7),
-                            rows.integer(i, c + 8) != 0,
-                            rows.text(i, c + 9),
-                            {},
-                            {}}};
-    for (; m < metrics.size() && metrics.text(m, 0) == entry.session.uuid &&
-           metrics.integer(m, 1) == entry.trial.number;
-         ++m)
-      entry.trial.metrics.push_back({metrics.text(m, 2), metrics.real(m, 3)});
-    all.push_back(std::move(entry));
-  }
+  eachTrial(filter, [&](const TrialWithSession& trial) { all.push_back(trial); });
   return all;
+}
+
+std::vector<Tally> RecordStore::tallies(const std::string& trainee) {
+  return record::tallies(*connection_, trainee);
 }
 
 std::vector<StoredEvent> RecordStore::events(const std::string& session, std::int64_t number) {
@@ -310,7 +262,7 @@ std::vector<StoredSession> RecordStore::deletePerson(const std::string& id,
   if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {id}).empty())
     throw UsageError("is not in the records", "trainee " + id,
                      "palpa records trainee list shows who is in them");
-  std::vector<StoredSession> theirs = sessions(id);
+  std::vector<StoredSession> theirs = sessionsOf(id);
   std::vector<std::string> uuids;
   for (const StoredSession& s : theirs) {
     deleteSessionRows(*connection_, s.uuid, false);

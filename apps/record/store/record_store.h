@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "apps/record/store/deletions.h"
+#include "apps/record/store/metric_sets.h"
 #include "apps/record/store/sql_connection.h"
 
 /// What the store keeps, as plain values. Times are UTC, ISO 8601 to the second; dates
@@ -50,11 +52,6 @@ struct StoredSession {
   std::vector<StoredCalibration> calibrations;
 };
 
-struct Metric {
-  std::string name;  ///< as in the table of metrics
-  double value = 0;  ///< not a number: does not apply to this trial
-};
-
 struct StoredEvent {
   std::int64_t t_ns = 0;  ///< session time
   std::string kind, text;
@@ -69,8 +66,8 @@ struct StoredTrial {
   bool force_feedback = true;
   std::string outcome, reason;
   bool success = false;
-  std::string score_json;  ///< as the evidence has it
-  std::vector<Metric> metrics;
+  std::string score_json;       ///< as the evidence has it
+  std::vector<Metric> metrics;  ///< in the order of their names where the store gives them
   std::vector<StoredEvent> events;
   double metric(const std::string& name) const;  ///< not a number where it has none of that name
 };
@@ -91,6 +88,12 @@ struct TrialFilter {
 struct TrialWithSession {
   StoredSession session;  ///< without its calibrations
   StoredTrial trial;      ///< without its events
+};
+
+/// How much a trainee has done.
+struct Tally {
+  std::string trainee;
+  std::int64_t sessions = 0, trials = 0;
 };
 
 /// Trainees, sessions, trials, metrics, events of a centre: one SQLite file, or a PostgreSQL server
@@ -117,11 +120,19 @@ class RecordStore {
   /// it is: false. So a trial may be delivered as often as it takes. Throws PersonDeleted;
   /// UsageError for a trainee who is not there or a session that belongs to another.
   bool addTrial(const StoredSession& session, const StoredTrial& trial);
+  /// Several of one session, all or none: how many were not there already.
+  int addTrials(const StoredSession& session, const std::vector<StoredTrial>& trials);
 
   std::vector<StoredSession> sessions(const std::string& trainee = "");  ///< by trainee and arrival
   std::optional<StoredSession> session(const std::string& uuid);
-  std::vector<TrialWithSession> trials(
-      const TrialFilter& filter = {});  ///< by trainee, arrival, number
+  /// One trial after the other, by trainee, arrival and number, all of one moment: a cohort of any
+  /// size in the memory of one trial. Who visits must not use the store.
+  void eachTrial(const TrialFilter& filter,
+                 const std::function<void(const TrialWithSession&)>& visit);
+  /// The same as a list, for few.
+  std::vector<TrialWithSession> trials(const TrialFilter& filter = {});
+  std::vector<Tally> tallies(
+      const std::string& trainee = "");  ///< by trainee; all but who has none
   std::vector<StoredEvent> events(const std::string& session, std::int64_t number);
 
   /// Removes all rows of a person and remembers, without the name, that he was deleted; answers
@@ -143,6 +154,8 @@ class RecordStore {
   void requireSession(
       const StoredSession& session);  ///< of this trainee, made where it is not there
   void insertSession(const StoredSession& session);
+  std::vector<StoredSession> sessionsOf(const std::string& trainee);
+  bool insertTrial(const std::string& session, const StoredTrial& trial, std::string& kept_set);
   void requireNotDeleted(const StoredSession& session);
   std::unique_ptr<SqlConnection> connection_;
   Deletions deletions_;

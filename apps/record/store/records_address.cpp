@@ -1,4 +1,4 @@
-#include "apps/record/store/records_address.h"
+#include "apps/record/store/sql_connection.h"
 
 #include <algorithm>
 #include <array>

@@ -62,7 +62,7 @@ Database::Mode readingMode(const std::string& file) {
 class SqliteConnection final : public SqlConnection {
  public:
   SqliteConnection(const std::string& file, Access access)
-      : database_(prepared(file, access),
+      : database_(readied(file, access),
                   access == Access::write ? Database::Mode::write : readingMode(file)) {
     sqlite3_busy_timeout(database_.handle(), kWaitForOthers_ms);
     guarded([&] { access == Access::write ? prepare() : check(); });
@@ -71,16 +71,22 @@ class SqliteConnection final : public SqlConnection {
   SqlRows query(const std::string& sql, const std::vector<SqlValue>& values) override {
     return guarded([&] { return answer(sql, values); });
   }
+  std::unique_ptr<SqlCursor> cursor(const std::string& sql,
+                                    const std::vector<SqlValue>& values) override {
+    return guarded([&] { return std::make_unique<Cursor>(*this, sql, values); });
+  }
   void script(const std::string& statements) override {
     guarded([&] { database_.exec(statements); });
   }
-  void begin() override { script("BEGIN IMMEDIATE"); }
+  /// Whoever reads sees the file as it is at the first look, and others may write meanwhile.
+  void begin(Access access) override {
+    script(access == Access::write ? "BEGIN IMMEDIATE" : "BEGIN");
+  }
   void commit() override { script("COMMIT"); }
   void rollback() noexcept override {
     sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
   }
   void lockSchema() override {}  // a transaction for writing has the file to itself
-  void freeze() override {}
   bool leaveNoTrace() override {
     script("VACUUM");
     return query("PRAGMA wal_checkpoint(TRUNCATE)", {}).integer(0, 0) == 0;
@@ -91,6 +97,29 @@ class SqliteConnection final : public SqlConnection {
   std::string place() const override { return "records file " + database_.file().string(); }
 
  private:
+  class Cursor final : public SqlCursor {
+   public:
+    Cursor(SqliteConnection& owner, const std::string& sql, const std::vector<SqlValue>& values)
+        : owner_(owner), statement_(owner.prepared(sql, values)) {}
+    bool next() override {
+      return owner_.guarded([this] { return statement_.step(); });
+    }
+    std::string_view text(std::size_t column) const override {
+      return statement_.textView(static_cast<int>(column));
+    }
+    std::int64_t integer(std::size_t column) const override {
+      return statement_.integer(static_cast<int>(column));
+    }
+    double real(std::size_t column) const override {
+      return statement_.real(static_cast<int>(column));
+    }
+    std::vector<SqlValue> row() const override { return rowOf(statement_); }
+
+   private:
+    SqliteConnection& owner_;
+    Statement statement_;
+  };
+
   void prepare() {
     const std::int64_t id = ownId();
     switchToLog();
@@ -125,11 +154,16 @@ class SqliteConnection final : public SqlConnection {
                 ".recover`");
   }
 
-  SqlRows answer(const std::string& sql, const std::vector<SqlValue>& values) {
+  Statement prepared(const std::string& sql, const std::vector<SqlValue>& values) {
     Statement statement(database_, sql);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      std::visit([&](const auto& value) { statement.bindNamed(parameterName(i), value); },
-                 values[i]);
+    int number = 0;
+    for (const SqlValue& value : values)
+      std::visit([&](const auto& v) { statement.bindNumbered(number, v); }, (++number, value));
+    return statement;
+  }
+
+  SqlRows answer(const std::string& sql, const std::vector<SqlValue>& values) {
+    Statement statement = prepared(sql, values);
     SqlRows rows;
     while (statement.step()) rows.add(rowOf(statement));
     return rows;
@@ -167,14 +201,10 @@ class SqliteConnection final : public SqlConnection {
       }
   }
 
-  static std::string prepared(const std::string& file, Access access) {
+  static std::string readied(const std::string& file, Access access) {
     if (access == Access::write) makeFile(file);
     checkKind(file);
     return file;
-  }
-
-  static std::string parameterName(std::size_t i) {
-    return std::string(1, '$') += std::to_string(i + 1);
   }
 
   static std::vector<SqlValue> rowOf(const Statement& statement) {

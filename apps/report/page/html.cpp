@@ -92,7 +92,6 @@ void Html::element(std::string_view tag, Attributes attributes, std::string_view
 void Html::passOn() {
   if (!file_) return;
   file_->write(out_);
-  passed_on_ += out_.size();
   out_.clear();
 }
 

@@ -46,7 +46,9 @@ class Html {
   void append(const Html& other) { out_ += other.out_; }
 
   const std::string& str() const { return out_; }
-  std::size_t size() const { return passed_on_ + out_.size(); }  ///< bytes, with those passed on
+  /// Bytes of pictures in the page, as whoever writes them has counted them.
+  std::size_t pictureBytes() const { return picture_bytes_; }
+  void countPicture(std::size_t bytes) { picture_bytes_ += bytes; }
   /// Between any two elements: what is written so far goes into the page's file, so that a long
   /// page is never in memory whole. Without a file nothing happens. Throws Error.
   void passOn();
@@ -57,7 +59,7 @@ class Html {
   void head(std::string_view tag, Attributes attributes);
 
   WholeFile* file_ = nullptr;
-  std::size_t passed_on_ = 0;
+  std::size_t picture_bytes_ = 0;
   std::string out_;
   std::vector<std::string> open_;
 };

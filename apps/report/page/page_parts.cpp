@@ -137,6 +137,7 @@ void writeOne(Html& html, const Picture& picture, bool beside) {
         "img",
         {{"src", picture.file.filename().string()}, {"alt", picture.caption}, {"loading", "lazy"}});
   } else {
+    html.countPicture(bytes.size());
     html.empty("img",
                {{"src", "data:image/png;base64," + base64(bytes)}, {"alt", picture.caption}});
   }
@@ -149,7 +150,7 @@ void writeOne(Html& html, const Picture& picture, bool beside) {
 
 void writePictures(Html& html, const std::vector<Picture>& pictures, std::size_t carried) {
   if (pictures.empty()) return;
-  const bool beside = html.size() > carried;
+  const bool beside = html.pictureBytes() > carried;
   html.element("h3", "Pictures");
   if (beside)
     html.element("p", {{"class", "muted small"}},

@@ -80,9 +80,10 @@ void writeDataTable(Html& html, const DataTable& table);
 /// The same always open.
 void writeOpenTable(Html& html, const DataTable& table);
 
-/// What a page carries in itself, bytes: some fifty trials. Larger ones a browser opens slowly or
-/// not at all.
-inline constexpr std::size_t kCarried = 200'000'000;
+/// Bytes of pictures that a page carries in itself, of some fifty trials; larger pages a browser
+/// opens slowly or not at all. Of pictures alone: a session's report and what `palpa finish` makes
+/// of it differ by some words, and show the same trials' pictures in the same way.
+inline constexpr std::size_t kCarried = 150'000'000;
 
 /// The pictures with caption and moment, embedded; from `carried` on they are shown from their
 /// files, which must lie beside the page, and this is said. One that cannot be read (or is no PNG)

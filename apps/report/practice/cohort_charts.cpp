@@ -158,8 +158,7 @@ void writeTraineeFigures(Html& html, const progress::Series& group, const std::s
   writeDataTable(html, table);
 }
 
-void writeGroupCurve(Html& html, const progress::Series& group, const std::string& metric) {
-  const progress::GroupCurve curve = progress::groupCurve(group, metric);
+void writeGroupCurve(Html& html, const progress::GroupCurve& curve, const std::string& metric) {
   if (std::none_of(curve.curves.begin(), curve.curves.end(), [](const auto& own) {
         return std::any_of(own.begin(), own.end(), [](double v) { return std::isfinite(v); });
       }))

@@ -85,17 +85,16 @@ void writeAttention(Html& html, const std::vector<progress::Attention>& attentio
 }
 
 void writeCohortSummary(Html& html, const progress::Series& group,
-                        const std::vector<progress::Series>& trainees,
+                        const std::vector<progress::CommonError>& errors,
                         const statistics::CusumRates& rates) {
   const auto list = html.in("ul", {{"class", "short"}});
-  const auto successes = std::count_if(group.trials.begin(), group.trials.end(),
-                                       [](const auto& t) { return t.succeeded(); });
+  const std::vector<progress::PracticeView> trainees = progress::byTrainee(group);
+  std::size_t successes = 0;
   std::vector<double> shares;
-  for (const progress::Series& own : trainees)
-    shares.push_back(
-        static_cast<double>(std::count_if(own.trials.begin(), own.trials.end(),
-                                          [](const auto& t) { return t.succeeded(); })) /
-        static_cast<double>(own.trials.size()));
+  for (const progress::PracticeView& own : trainees) {
+    successes += own.successes();
+    shares.push_back(static_cast<double>(own.successes()) / static_cast<double>(own.trials.size()));
+  }
   const progress::GroupMean success = progress::groupMean(shares);
   shortItem(html, "Practice:",
             counted(trainees.size(), "trainee") + ", " +
@@ -105,7 +104,7 @@ void writeCohortSummary(Html& html, const progress::Series& group,
                 figureOf("success", success.mean) + " of a trainee's" +
                 intervalWords("success", success.interval) + '.');
   writeAttention(html, progress::whoNeedsAttention(group, rates), trainees.size());
-  shortItem(html, "Common errors:", commonWords(progress::commonErrors(group)));
+  shortItem(html, "Common errors:", commonWords(errors));
   shortItem(html, "Reliability:", reliabilityWords(group, metricsOf(group.engine).reliability));
 }
 
@@ -117,8 +116,8 @@ std::string stateOf(const progress::Competence& c) {
 }
 
 void writeCompetences(Html& html, const progress::Series& group,
-                      const std::vector<progress::Series>& trainees,
                       const statistics::CusumRates& rates) {
+  const std::vector<progress::PracticeView> trainees = progress::byTrainee(group);
   const int fewest = statistics::cusumLimits(rates).shortest_clean_run;
   html.element("h3", "Competence");
   if (group.engine == Engine::palpation &&
@@ -132,14 +131,12 @@ void writeCompetences(Html& html, const progress::Series& group,
                         " % unacceptable; none is established for this procedure. Fewer than " +
                         std::to_string(fewest) + " trials cannot certify anybody.");
   DataTable table{"", {"Trainee", "Trials", "Failures", "CUSUM"}, {}, 3};
-  for (const progress::Series& own : trainees) {
-    std::vector<bool> failures;
-    for (const progress::PracticeTrial& trial : own.trials)
-      failures.push_back(progress::failed(trial));
+  for (const progress::PracticeView& own : trainees) {
+    const std::vector<bool> failures = progress::failuresIn(own);
     const bool locked =
         own.engine == Engine::palpation && own.trials.size() < progress::kFewestCases;
     table.rows.push_back(
-        {own.trials.front().trainee, std::to_string(own.trials.size()),
+        {own.trainee(), std::to_string(own.trials.size()),
          std::to_string(std::count(failures.begin(), failures.end(), true)),
          locked ? "fewer than eight cases" : stateOf(progress::competenceOf(failures, rates))});
   }
@@ -147,21 +144,22 @@ void writeCompetences(Html& html, const progress::Series& group,
 }
 
 void writeGroup(Html& html, const progress::Series& group, const statistics::CusumRates& rates) {
-  const std::vector<progress::Series> trainees = progress::byTrainee(group);
+  const std::vector<progress::CommonError> errors = progress::commonErrors(group);
   const ShownMetrics shown = metricsOf(group.engine);
-  writeCohortSummary(html, group, trainees, rates);
+  writeCohortSummary(html, group, errors, rates);
   html.element("h3", "Common errors");
-  writeCommonErrors(html, progress::commonErrors(group));
+  writeCommonErrors(html, errors);
   html.element("h3", "Trainee by trainee");
   for (const std::string& metric : shown.distributions) writeTraineeFigures(html, group, metric);
   html.element("h3", "Learning");
-  for (const std::string& metric : shown.curves) writeGroupCurve(html, group, metric);
-  writeCompetences(html, group, trainees, rates);
+  const std::vector<progress::GroupCurve> curves = progress::groupCurves(group, shown.curves);
+  for (std::size_t i = 0; i < curves.size(); ++i) writeGroupCurve(html, curves[i], shown.curves[i]);
+  writeCompetences(html, group, rates);
 }
 
 }  // namespace
 
-void writeCohortReport(const CohortReport& report, const std::filesystem::path& file) {
+void writeCohortReport(CohortReport report, const std::filesystem::path& file) {
   std::set<std::string> trainees;
   for (const progress::PracticeTrial& trial : report.trials) trainees.insert(trial.trainee);
   const PracticePage page{
@@ -174,10 +172,10 @@ void writeCohortReport(const CohortReport& report, const std::filesystem::path& 
       "Intervals of the group are over trainees, since a trainee's trials are not independent. "
       "Reliability: Shrout and Fleiss, Psychol. Bull. 86, 1979.",
       report.software};
-  writeWhole(file,
-             practiceHtml(page, report.trials, [&](Html& html, const progress::Series& group) {
-               writeGroup(html, group, report.rates);
-             }));
+  writeWhole(file, practiceHtml(page, std::move(report.trials),
+                                [&](Html& html, const progress::Series& group) {
+                                  writeGroup(html, group, report.rates);
+                                }));
 }
 
 }  // namespace palpa::report

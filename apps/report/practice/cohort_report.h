@@ -20,6 +20,6 @@ struct CohortReport {
 /// One self-contained HTML page: in short, who needs attention, common errors, each trainee's
 /// figures, the group's curves, reliability. Simulated trials and people's never share a figure.
 /// All or nothing on disk.
-void writeCohortReport(const CohortReport& report, const std::filesystem::path& file);
+void writeCohortReport(CohortReport report, const std::filesystem::path& file);
 
 }  // namespace palpa::report

@@ -6,6 +6,7 @@
 #include "apps/assess/progress/cohort.h"
 #include "apps/assess/progress/competence.h"
 #include "apps/assess/progress/history.h"
+#include "apps/assess/statistics/cusum.h"
 #include "apps/report/page/html.h"
 #include "apps/report/page/style.h"
 
@@ -32,6 +33,23 @@ void writeCommonErrors(Html& html, const std::vector<progress::CommonError>& err
 void writeTraineeFigures(Html& html, const progress::Series& group, const std::string& metric);
 
 /// Every trainee's trials as a thin line, the group's mean with its interval over them.
-void writeGroupCurve(Html& html, const progress::Series& group, const std::string& metric);
+void writeGroupCurve(Html& html, const progress::GroupCurve& curve, const std::string& metric);
+
+/// What an educator reads in a minute: how much, what got better, what costs most, nearest misses,
+/// what recurs, what to practise next.
+void writeTraineeSummary(Html& html, const progress::Series& series);
+
+/// "34 scored trials in 5 sessions, 2027-01-10 to 2027-03-02 (51 days)"
+std::string extentOf(const progress::Series& series);
+
+/// The parts of a trainee's page after the summary.
+void writeLearningSection(Html& html, const progress::Series& series);
+/// CUSUM and what may be said by it; of palpation only from eight cases on.
+void writeCompetenceSection(Html& html, const progress::Series& series,
+                            const statistics::CusumRates& rates);
+/// Tests to come, and what pauses cost.
+void writeRetentionSection(Html& html, const progress::Series& series,
+                           const statistics::CusumRates& rates);
+void writeErrorSection(Html& html, const progress::Series& series);
 
 }  // namespace palpa::report

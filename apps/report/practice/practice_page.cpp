@@ -22,9 +22,10 @@ void writePracticeHeader(Html& html, const PracticePage& page, bool simulated) {
   if (simulated) writeSimulatedBanner(html);
 }
 
-void writePracticeMain(Html& html, const std::vector<progress::PracticeTrial>& trials,
+void writePracticeMain(Html& html, std::vector<progress::PracticeTrial> trials,
                        const std::function<void(Html&, const progress::Series&)>& series) {
-  const std::vector<progress::Series> all = progress::seriesOf(trials);
+  const std::string left = progress::leftOut(trials);
+  const std::vector<progress::Series> all = progress::seriesOf(std::move(trials));
   const auto main = html.in("main");
   if (all.empty())
     html.element("p", {{"class", "card"}},
@@ -38,7 +39,7 @@ void writePracticeMain(Html& html, const std::vector<progress::PracticeTrial>& t
     writeSeriesHeading(html, one);
     series(html, one);
   }
-  if (const std::string left = progress::leftOut(trials); !left.empty())
+  if (!left.empty())
     html.element("p", {{"class", "muted small"}}, "Left out of every figure: " + left + '.');
 }
 
@@ -51,8 +52,7 @@ void writeSeriesHeading(Html& html, const progress::Series& series) {
   html.element("h2", name);
 }
 
-std::string practiceHtml(const PracticePage& page,
-                         const std::vector<progress::PracticeTrial>& trials,
+std::string practiceHtml(const PracticePage& page, std::vector<progress::PracticeTrial> trials,
                          const std::function<void(Html&, const progress::Series&)>& series) {
   Html html;
   html.raw("<!doctype html>\n");
@@ -63,7 +63,7 @@ std::string practiceHtml(const PracticePage& page,
     writePracticeHeader(html, page,
                         std::any_of(trials.begin(), trials.end(),
                                     [](const progress::PracticeTrial& t) { return t.simulated; }));
-    writePracticeMain(html, trials, series);
+    writePracticeMain(html, std::move(trials), series);
     const auto footer = html.in("footer");
     html.element("p", {{"class", "muted small"}},
                  page.footer + " Palpa has not been validated on people.");

@@ -20,8 +20,7 @@ struct PracticePage {
   std::vector<std::pair<std::string, std::string>> who;
   std::string footer, software;
 };
-std::string practiceHtml(const PracticePage& page,
-                         const std::vector<progress::PracticeTrial>& trials,
+std::string practiceHtml(const PracticePage& page, std::vector<progress::PracticeTrial> trials,
                          const std::function<void(Html&, const progress::Series&)>& series);
 
 /// "Paracentesis, force feedback off", and that it is simulated.

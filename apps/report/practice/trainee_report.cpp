@@ -8,9 +8,9 @@
 #include "apps/assess/progress/competence.h"
 #include "apps/assess/progress/errors.h"
 #include "apps/report/page/page_parts.h"
+#include "apps/report/practice/practice_charts.h"
 #include "apps/report/practice/practice_page.h"
 #include "apps/report/practice/progress_words.h"
-#include "apps/report/practice/trainee_sections.h"
 #include "apps/training/engine.h"
 
 namespace palpa::report {
@@ -146,7 +146,7 @@ std::string recurringSentence(const std::vector<progress::ErrorCount>& errors) {
   for (const progress::ErrorCount& e : errors)
     if (e.recurs())
       words += (words.empty() ? "" : "; ") + std::string(e.kind->words) + " (" +
-               std::to_string(e.lately) + " of the last " + std::to_string(e.lately_of) +
+               std::to_string(e.lately.with) + " of the last " + std::to_string(e.lately.of) +
                " trials)";
   return words.empty() ? "no error happened twice in the last five trials." : words + '.';
 }
@@ -189,8 +189,7 @@ void writeTraineeSummary(Html& html, const progress::Series& series) {
   const std::vector<progress::ErrorCount> errors = progress::errorsIn(series);
   const auto list = html.in("ul", {{"class", "short"}});
   item(html, "Practice:", extentOf(series) + '.');
-  const auto successes = std::count_if(series.trials.begin(), series.trials.end(),
-                                       [](const auto& t) { return t.succeeded(); });
+  const std::size_t successes = progress::PracticeView(series).successes();
   const auto failures = std::count_if(series.trials.begin(), series.trials.end(), progress::failed);
   std::string counts = std::to_string(successes) + " of " + std::to_string(series.trials.size());
   if (series.engine == training::Engine::needle)

@@ -1,4 +1,3 @@
-#include "apps/report/practice/trainee_sections.h"
 
 #include <algorithm>
 #include <optional>
@@ -25,10 +24,7 @@ std::string percent(double share) { return trimmed(100 * share, 1) + " %"; }
 
 progress::Competence competenceIn(const progress::Series& series,
                                   const statistics::CusumRates& rates) {
-  std::vector<bool> failures;
-  for (const progress::PracticeTrial& trial : series.trials)
-    failures.push_back(progress::failed(trial));
-  return progress::competenceOf(failures, rates);
+  return progress::competenceOf(progress::failuresIn(series), rates);
 }
 
 bool locked(const progress::Series& series) {
@@ -139,9 +135,9 @@ void writeErrorSection(Html& html, const progress::Series& series) {
   }
   DataTable table{"", {"Error", "Trials", "Last five", "Against it"}, {}, 3};
   for (const progress::ErrorCount& e : errors)
-    table.rows.push_back({e.kind->words, std::to_string(e.with) + " of " + std::to_string(e.of),
-                          std::to_string(e.lately) + " of " + std::to_string(e.lately_of),
-                          e.kind->practise});
+    table.rows.push_back(
+        {e.kind->words, std::to_string(e.all.with) + " of " + std::to_string(e.all.of),
+         std::to_string(e.lately.with) + " of " + std::to_string(e.lately.of), e.kind->practise});
   writeOpenTable(html, table);
 }
 

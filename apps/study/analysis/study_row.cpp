@@ -87,68 +87,60 @@ namespace {
 constexpr char kColumns[] =
     "The first line is SUBJECT,GROUP,CONDITION,BLOCK,TRIAL and the names of the figures";
 
-using Fields = std::vector<std::string>;
+}  // namespace
 
-struct Line {
-  std::size_t number = 0;
-  Fields fields;
-};
+CsvReader::CsvReader(const std::string& text, std::string where)
+    : text_(text), where_(std::move(where)) {
+  if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // a byte order mark of a spreadsheet
+}
 
-/// RFC 4180: quotes around what holds commas, quotes or line ends; blank lines are passed over.
-class CsvReader {
- public:
-  CsvReader(const std::string& text, std::string where) : text_(text), where_(std::move(where)) {
-    if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // a byte order mark of a spreadsheet
-  }
+bool CsvReader::next(Line& line) {
+  do {
+    if (at_ >= text_.size()) return false;
+    line = {number_, {}};
+    readLine(line.fields);
+  } while (line.fields.size() == 1 && line.fields[0].empty());
+  return true;
+}
 
-  bool next(Line& line) {
-    do {
-      if (at_ >= text_.size()) return false;
-      line = {number_, {}};
-      readLine(line.fields);
-    } while (line.fields.size() == 1 && line.fields[0].empty());
-    return true;
-  }
+void CsvReader::readLine(std::vector<std::string>& fields) {
+  do fields.push_back(readField());
+  while (at_ < text_.size() && text_[at_++] == ',');
+  if (at_ > 0 && text_[at_ - 1] == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
+  ++number_;
+}
 
- private:
-  void readLine(Fields& fields) {
-    do fields.push_back(readField());
-    while (at_ < text_.size() && text_[at_++] == ',');
-    if (at_ > 0 && text_[at_ - 1] == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
-    ++number_;
-  }
-
-  std::string readField() {
-    std::string field;
-    if (at_ < text_.size() && text_[at_] == '"') {
-      readQuoted(field);
-      return field;
-    }
-    while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n' && text_[at_] != '\r')
-      field += text_[at_++];
+std::string CsvReader::readField() {
+  std::string field;
+  if (at_ < text_.size() && text_[at_] == '"') {
+    readQuoted(field);
     return field;
   }
+  while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n' && text_[at_] != '\r')
+    field += text_[at_++];
+  return field;
+}
 
-  void readQuoted(std::string& field) {
-    for (++at_; at_ < text_.size(); ++at_) {
-      if (text_[at_] == '"' && (at_ + 1 >= text_.size() || text_[at_ + 1] != '"')) break;
-      if (text_[at_] == '"') ++at_;
-      if (text_[at_] == '\n') ++number_;
-      field += text_[at_];
-    }
-    if (at_ >= text_.size())
-      throw UsageError("a quoted text has no end", where_, "Correct the table");
-    ++at_;
-    if (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n' && text_[at_] != '\r')
-      throw UsageError("something follows a quoted text",
-                       where_ + ", line " + std::to_string(number_),
-                       "Double the quotes within a text");
+void CsvReader::readQuoted(std::string& field) {
+  for (++at_; at_ < text_.size(); ++at_) {
+    if (text_[at_] == '"' && (at_ + 1 >= text_.size() || text_[at_ + 1] != '"')) break;
+    if (text_[at_] == '"') ++at_;
+    if (text_[at_] == '\n') ++number_;
+    field += text_[at_];
   }
+  if (at_ >= text_.size())
+    throw UsageError("a quoted text has no end", where_, "Correct the table");
+  ++at_;
+  if (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n' && text_[at_] != '\r')
+    throw UsageError("something follows a quoted text",
+                     where_ + ", line " + std::to_string(number_),
+                     "Double the quotes within a text");
+}
 
-  const std::string& text_;
-  std::string where_;
-  std::size_t at_ = 0, number_ = 1;
-};
+namespace {
+
+using Fields = std::vector<std::string>;
+using Line = CsvReader::Line;
 
 /// The cells of a line, by the names in the header.
 class Cells {

@@ -30,4 +30,25 @@ void orderAndNumber(std::vector<StudyRow>& rows, const std::string& where);
 /// Throws UsageError, naming `where` and the line, for what it cannot read.
 std::vector<StudyRow> rowsOfCsv(const std::string& text, const std::string& where);
 
+/// The lines of a table, RFC 4180: quotes around what holds commas, quotes or line ends; blank
+/// lines are passed over. Throws UsageError, naming `where` and the line.
+class CsvReader {
+ public:
+  struct Line {
+    std::size_t number = 0;  ///< in the text, from 1
+    std::vector<std::string> fields;
+  };
+  CsvReader(const std::string& text, std::string where);  ///< the text stays where it is
+  bool next(Line& line);                                  ///< false: there is none
+
+ private:
+  void readLine(std::vector<std::string>& fields);
+  std::string readField();
+  void readQuoted(std::string& field);
+
+  const std::string& text_;
+  std::string where_;
+  std::size_t at_ = 0, number_ = 1;
+};
+
 }  // namespace palpa::study_analysis

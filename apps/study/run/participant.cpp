@@ -9,12 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/sha256.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/evidence/evidence_records.h"
+#include "apps/os/file_access.h"
 #include "apps/record/session_file.h"
 #include "apps/record/store/delivery.h"
 #include "apps/session/output_folder.h"
 #include "apps/study/protocol.h"
-#include "apps/study/run/station_copy.h"
 #include "apps/task_needle/task_file.h"
 #include "calibration/expert_path.h"
 
@@ -22,6 +24,86 @@ namespace palpa::study {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kDigestLength = 12;  // digits of a digest
+
+/// What this station knows of somebody in a study, so that a session can go on while the records
+/// cannot be reached.
+struct StudyCopy {
+  std::string protocol_sha256;
+  record::Enrolment enrolment;
+  std::vector<study::DoneTrial> trials;
+  /// first those that the records have, their words left out here
+  std::vector<record::ItemAnswer> answers;
+  std::size_t sent = 0;  ///< how many those are
+};
+
+/// Beside the list of pending sessions; one file for study, trainee and records.
+fs::path studyCopyFile(const std::string& study, const std::string& trainee,
+                       const std::string& url) {
+  return record::PendingList::usualFolder().parent_path() / "studies" /
+         (study + "-" + trainee + "-" + sha256(url).substr(0, kDigestLength) + ".json");
+}
+
+/// None where there is no file, or none that can be read: then the records are needed.
+std::optional<StudyCopy> readStudyCopy(const fs::path& file) {
+  const std::optional<std::string> text = readWhole(file);
+  if (!text) return std::nullopt;
+  try {
+    const nlohmann::json json = parseJson(*text);
+    StudyCopy copy;
+    copy.protocol_sha256 = json.at("protocol_sha256");
+    const nlohmann::json& e = json.at("enrolment");
+    copy.enrolment = {e.at("study"),     e.at("trainee"),   e.at("group"),       e.at("place"),
+                      e.at("condition"), e.at("simulated"), e.at("enrolled_utc")};
+    for (const nlohmann::json& t : json.at("trials"))
+      copy.trials.push_back(
+          {t.at("step"), t.at("session"), t.at("began_utc"), t.at("ended_s"), t.at("outcome")});
+    for (const nlohmann::json& a : json.at("answers"))
+      copy.answers.push_back({copy.enrolment.study, copy.enrolment.trainee, a.at("session"),
+                              a.at("item"), a.at("questionnaire"), a.at("answer"),
+                              a.at("answered_utc")});
+    copy.sent = json.at("sent");
+    return copy;
+  } catch (const nlohmann::json::exception&) {  // the records know better
+    return std::nullopt;
+  }
+}
+
+/// Beside, then renamed; throws Error.
+void writeStudyCopy(const StudyCopy& copy, const fs::path& file) {
+  const record::Enrolment& e = copy.enrolment;
+  nlohmann::json json{{"protocol_sha256", copy.protocol_sha256},
+                      {"enrolment",
+                       {{"study", e.study},
+                        {"trainee", e.trainee},
+                        {"group", e.group},
+                        {"place", e.place},
+                        {"condition", e.condition},
+                        {"simulated", e.simulated},
+                        {"enrolled_utc", e.enrolled_utc}}},
+                      {"trials", nlohmann::json::array()},
+                      {"answers", nlohmann::json::array()},
+                      {"sent", copy.sent}};
+  for (const study::DoneTrial& t : copy.trials)
+    json["trials"].push_back({{"step", t.step},
+                              {"session", t.session},
+                              {"began_utc", t.began_utc},
+                              {"ended_s", t.ended_s},
+                              {"outcome", t.outcome}});
+  for (std::size_t i = 0; i < copy.answers.size(); ++i) {
+    const record::ItemAnswer& a = copy.answers[i];
+    json["answers"].push_back({{"session", a.session},
+                               {"item", a.item},
+                               {"questionnaire", a.questionnaire},
+                               {"answer", i < copy.sent ? "" : a.answer},
+                               {"answered_utc", a.answered_utc}});
+  }
+  if (const std::error_code problem = os::makeFolders(file.parent_path()))
+    failFile("cannot be made", file.parent_path(), problem,
+             "Or set XDG_STATE_HOME to another folder");
+  writeWhole(file, json.dump(1) + "\n");
+}
 
 /// Throws UsageError for somebody who cannot take part.
 void needFit(const record::Trainee& trainee, const study::Protocol& protocol, bool enrolled) {
@@ -61,6 +143,16 @@ std::vector<record::PendingSession> waitingFor(const std::string& trainee, const
 }
 
 }  // namespace
+
+void removeStudyCopies(const std::string& trainee) {
+  std::error_code ignored;
+  std::vector<fs::path> theirs;
+  for (const auto& entry : fs::directory_iterator(
+           record::PendingList::usualFolder().parent_path() / "studies", ignored))
+    if (const auto copy = readStudyCopy(entry.path()); copy && copy->enrolment.trainee == trainee)
+      theirs.push_back(entry.path());
+  for (const fs::path& file : theirs) fs::remove(file, ignored);
+}
 
 StudyParticipant::StudyParticipant(const study::Protocol& protocol, const std::string& trainee,
                                    const std::string& url, std::uint64_t seed)
@@ -216,6 +308,17 @@ std::vector<std::pair<std::string, std::string>> excludedFrom(const study::Proto
   for (const study::Session& session : protocol.sessions)
     for (const study::Block& block : session.blocks) addExpertsOf(block, &excluded);
   return excluded;
+}
+
+void addSimulated(record::RecordStore& store, const std::string& id, const std::string& group,
+                  const std::string& now_utc) {
+  if (const auto there = store.trainee(id)) {
+    if (there->experience != kSimulatedExperience)
+      throw UsageError("is somebody in the records", "trainee " + id,
+                       "Give virtual trainees records of their own: --records cohort.sqlite");
+    return;
+  }
+  store.addTrainee({id, group, kSimulatedExperience, "right", now_utc, "", "", ""});
 }
 
 }  // namespace palpa::study

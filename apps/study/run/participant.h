@@ -11,6 +11,9 @@
 
 namespace palpa::study {
 
+/// The experience of virtual trainees, in the records.
+inline constexpr const char* kSimulatedExperience = "simulated";
+
 /// Somebody's way through a study: from the records, or, while they cannot be reached, from this
 /// station's own copy and the evidence that waits here.
 class StudyParticipant {
@@ -56,5 +59,14 @@ class StudyParticipant {
 /// Who takes no part, and why: the protocol's own list, and the experts whose trials made the
 /// expert path of one of its tasks.
 std::vector<std::pair<std::string, std::string>> excludedFrom(const study::Protocol& protocol);
+
+/// A virtual trainee in the records, unless he is there. Throws UsageError where a person has that
+/// pseudonym.
+void addSimulated(record::RecordStore& store, const std::string& id, const std::string& group,
+                  const std::string& now_utc);
+
+/// What this station knows of a person who is deleted, so that studies can go on without the
+/// records.
+void removeStudyCopies(const std::string& trainee);
 
 }  // namespace palpa::study

@@ -1,7 +1,4 @@
-#include <atomic>
 #include <cstdio>
-#include <cstring>
-#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,84 +13,47 @@
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/search_session.h"
+#include "apps/session/terminal.h"
 #include "apps/study/learning.h"
 #include "apps/study/protocol.h"
 #include "apps/study/run/participant.h"
 #include "apps/study/run/session.h"
-#include "apps/study/run/station_copy.h"
 #include "apps/study/run/study_run.h"
 #include "apps/training/engine.h"
 
 namespace palpa::study {
 namespace {
 
-constexpr std::int64_t kLook = 200 * runtime::kMillisecond;
-constexpr std::int64_t kSay = 5 * runtime::kSecond;
+constexpr std::int64_t kLook_ns = 200 * runtime::kMillisecond;
 
-/// What the processes share.
-struct WorkerTally {
-  std::atomic<int> next{0}, done{0}, failed{0};
-  char message[512] = {};
-};
+using Work = std::function<void(std::size_t, const std::function<void()>&)>;
 
-using Work = std::function<void(int, const std::function<void()>&)>;
-
-void workThrough(WorkerTally& board, int items, const Work& work) {
-  try {
-    for (int item; !board.failed && (item = board.next++) < items;)
-      work(item, [&board] { ++board.done; });
-  } catch (const std::exception& e) {
-    if (board.failed++ == 0) std::strncpy(board.message, e.what(), sizeof board.message - 1);
-  }
-}
-
-void say(const WorkerTally& board, int steps) {
-  std::fprintf(stderr, "%d of %d trials\n", board.done.load(), steps);
-}
-
-/// Until all have ended; true: somebody was killed.
-bool watchOver(int children, const WorkerTally& board, int steps, bool quiet) {
-  runtime::SteadyClock clock;
-  std::int64_t said_ns = 0;
-  bool killed = false;
-  for (int ended = 0; ended < children;) {
-    if (const std::optional<os::EndedWorker> worker = os::takeEnded()) {
-      ++ended;
-      killed = killed || !worker->clean;
-      continue;
+/// Does `work(0)` ... `work(items - 1)` in so many processes at a time. What is ready before
+/// (patients, files) is shared, not copied; nothing that is open (a store) may be. `steps`: how
+/// much there is to do in all; `work` says each step done with `step()`, and progress is shown.
+/// Throws Error with the first message when one failed; those that were begun are done first.
+void shareWork(std::size_t items, int workers, int steps, bool quiet, const Work& work) {
+  session::WorkProgress progress("trials", steps, quiet);
+  os::WorkerPool pool(static_cast<std::size_t>(workers));
+  std::string failure;
+  int done = 0;
+  for (std::size_t next = 0; !pool.isIdle() || (next < items && failure.empty());) {
+    progress.done(done);
+    while (next < items && failure.empty() && !pool.isFull()) {
+      const std::size_t item = next++;
+      pool.start(item, [&work, item](const os::Report& report) {
+        work(item, [&report] { report("a step"); });
+      });
     }
-    const std::int64_t now = clock.now();
-    clock.sleepUntil(now + kLook);
-    if (quiet || now - said_ns < kSay) continue;
-    said_ns = now;
-    say(board, steps);
+    for (const os::WorkerNews& news : pool.await(kLook_ns)) {
+      done += static_cast<int>(news.lines.size());
+      if (failure.empty()) failure = news.failure;
+    }
   }
-  return killed;
-}
-
-/// Does `work(0)` ... `work(items - 1)` in so many processes, each taking the next one that nobody
-/// has begun. What is ready before (patients, files) is shared, not copied; nothing that is open (a
-/// store) may be. `steps`: how much there is to do in all; `work` says each step done with
-/// `step()`, and progress is shown. Throws Error with the first message when one failed.
-void shareWork(int items, int workers, int steps, bool quiet, const Work& work) {
-  const os::SharedMemory<WorkerTally> shared("Use --workers 1");
-  WorkerTally& board = *shared;
-  int children = 0;
-  for (int i = 0; i < workers && i < items; ++i)
-    children += os::forkWorker([&] { workThrough(board, items, work); });
-  if (children == 0) workThrough(board, items, work);  // no process to be had
-  const bool killed = watchOver(children, board, steps, quiet);
-  if (!quiet) say(board, steps);
-  if (board.failed)
-    throw Error(board.message, "a virtual trainee",
-                "Start again: what is done is kept, the same command continues");
-  if (killed)
-    throw Error("was killed", "a process of the simulation",
+  if (!failure.empty())
+    throw Error(failure, "a virtual trainee",
                 "Start again: what is done is kept, the same command continues");
 }
-
-}  // namespace
-namespace {
 
 namespace fs = std::filesystem;
 using study::Next;
@@ -134,17 +94,6 @@ void buildWorlds(Shared& shared) {
     }
 }
 
-void addSubject(record::RecordStore& store, const std::string& id, const std::string& group,
-                const std::string& now) {
-  if (const auto there = store.trainee(id)) {
-    if (there->experience != kSimulatedExperience)
-      throw UsageError("is somebody in the records", "trainee " + id,
-                       "Give virtual trainees records of their own: --records cohort.sqlite");
-    return;
-  }
-  store.addTrainee({id, group, kSimulatedExperience, "right", now, "", "", ""});
-}
-
 /// In the order of their numbers, so that places and conditions follow from the seed.
 std::vector<Subject> enrolAll(const StudyOptions& o, const study::Protocol& protocol,
                               const study::Learners& learners) {
@@ -155,7 +104,7 @@ std::vector<Subject> enrolAll(const StudyOptions& o, const study::Protocol& prot
     const int count = o.subjects ? o.subjects : learners.groups.at(group.name).subjects;
     for (int i = 0; i < count; ++i) {
       const std::string id = idOf(static_cast<int>(subjects.size()) + 1), now = runtime::utcNow();
-      addSubject(store, id, group.name, now);
+      addSimulated(store, id, group.name, now);
       const record::Enrolment wanted{protocol.id, id, group.name, 0, "", true, now};
       const auto draw = [&](std::uint64_t seed, std::int64_t place) {
         return protocol.allocation
@@ -243,13 +192,12 @@ void simulateStudy(const StudyOptions& given) {
   Shared shared{o, protocol, learners, {}};
   buildWorlds(shared);
   const std::vector<Subject> subjects = enrolAll(o, protocol, learners);
-  const int count = static_cast<int>(subjects.size());
   std::printf("%s\n%s (%s). Planted: %s\n", protocol.title.c_str(),
               counted(subjects.size(), "simulated trainee").c_str(), learners.id.c_str(),
               learners.planted.c_str());
-  shareWork(count, o.workers, count * trialsOf(protocol), given.session.quiet,
-            [&](int item, const std::function<void()>& step) {
-              runSubject(shared, subjects[static_cast<std::size_t>(item)], step);
+  shareWork(subjects.size(), o.workers, static_cast<int>(subjects.size()) * trialsOf(protocol),
+            given.session.quiet, [&](std::size_t item, const std::function<void()>& step) {
+              runSubject(shared, subjects[item], step);
             });
   const auto trials = static_cast<std::size_t>(trialsOf(protocol));
   std::printf("Simulated: %s with %s each, in the records %s\n",

@@ -1,4 +1,4 @@
-#include "apps/study/run/study_rows.h"
+#include "apps/study/run/study_run.h"
 
 #include <map>
 #include <nlohmann/json.hpp>
