@@ -85,13 +85,15 @@ void benchRender(const RenderBenchOptions& options);
 struct SessionBenchOptions {
   int trials = 4;
   std::uint64_t seed = 1;
-  bool views = false;  ///< the scene is drawn where a trial is to be seen
+  bool views = false;    ///< the scene is drawn where a trial is to be seen
+  std::string tracking;  ///< images, model; empty: one after the other, with views images alone
 };
 
 /// What a paracentesis session of the simulated expert costs in virtual time, in the processor's
 /// time of all its threads: seconds until its first tick with the patient built and with the
 /// patient kept, how many times as fast as real time it runs from there, and which share of that
-/// each stage takes. One JSON object a line. Throws Error.
+/// each stage takes; with the board tracked in pictures and by a model of them. One JSON object a
+/// line. Throws Error, UsageError for the model with views.
 void benchSession(const SessionBenchOptions& options);
 
 struct StopBenchOptions {

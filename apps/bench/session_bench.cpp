@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "apps/bench/timing.h"
 #include "apps/os/file_access.h"
@@ -16,12 +17,15 @@ namespace {
 using session::SessionCost;
 
 constexpr double kSecond = 1e9;  // ns
+constexpr const char *kImages = "images", *kModel = "model";
 
-session::SessionOptions sessionOptions(const SessionBenchOptions& options, int trials) {
+session::SessionOptions sessionOptions(const SessionBenchOptions& options, int trials,
+                                       const std::string& tracking) {
   session::SessionOptions session;
   session.who = session::OperatorKind::expert;
   session.fast = session.quiet = true;
   session.no_views = !options.views;
+  session.tracking = tracking == kModel ? session::Tracking::model : session::Tracking::images;
   session.display = scene::Display::offscreen;
   session.seed = options.seed;
   session.trials = trials;
@@ -41,8 +45,8 @@ double hold(session::SessionOptions options, std::int64_t loading_ns, SessionCos
   return session_s;
 }
 
-/// In the order of the words.
-std::map<std::string, double> sharesOf(const SessionCost& cost) {
+/// In the order of the words. A model works in the camera's step, without a thread of its own.
+std::map<std::string, double> sharesOf(const SessionCost& cost, const std::string& tracking) {
   const auto all = static_cast<double>(cost.run_ns);
   std::map<std::string, double> shares;
   std::int64_t steps_ns = 0;
@@ -50,41 +54,59 @@ std::map<std::string, double> sharesOf(const SessionCost& cost) {
     shares[name] = static_cast<double>(ns) / all;
     steps_ns += ns;
   }
+  shares["rest"] = static_cast<double>(cost.thread_ns - steps_ns) / all;
+  if (tracking == kModel) return shares;
   shares["drawing"] = static_cast<double>(cost.drawing_ns) / all;
   shares["tracking"] = static_cast<double>(cost.run_ns - cost.thread_ns - cost.drawing_ns) / all;
-  shares["rest"] = static_cast<double>(cost.thread_ns - steps_ns) / all;
   return shares;
+}
+
+/// "start_seconds"; `params->cached` then says which start it was.
+void printStart(bool cached, const SessionCost& cost, nlohmann::json* params) {
+  (*params)["cached"] = cached;
+  print("start_seconds", static_cast<double>(cost.started_ns) / kSecond, "s", *params);
+}
+
+void benchBuiltPatient(const session::SessionOptions& options, std::int64_t loading_ns,
+                       nlohmann::json* params) {
+  const char* const before = std::getenv("PALPA_CACHE");
+  const std::string folder = before ? before : "";
+  setenv("PALPA_CACHE", "off", 1);
+  SessionCost cost;
+  hold(options, loading_ns, &cost);
+  printStart(false, cost, params);
+  before ? setenv("PALPA_CACHE", folder.c_str(), 1) : unsetenv("PALPA_CACHE");
+}
+
+void benchKeptPatient(const session::SessionOptions& options, std::int64_t loading_ns,
+                      nlohmann::json params) {
+  SessionCost plain, measured;
+  const double session_s = hold(options, loading_ns, &plain);
+  printStart(true, plain, &params);
+  params["trials"] = options.trials;
+  print("times_real_time", session_s * kSecond / static_cast<double>(plain.run_ns), "1", params);
+  measured.by_stage = true;
+  hold(options, loading_ns, &measured);
+  for (const auto& [stage, share] : sharesOf(measured, params["tracking"])) {
+    params["stage"] = stage;
+    print("stage_share", share, "1", params);
+  }
 }
 
 }  // namespace
 
 void benchSession(const SessionBenchOptions& options) {
   const std::int64_t loading_ns = os::processorTime_ns();
-  nlohmann::json params{{"tracking", "images"}, {"views", options.views}, {"seed", options.seed}};
-  const auto started = [&](bool cached, const SessionCost& cost) {
-    params["cached"] = cached;
-    print("start_seconds", static_cast<double>(cost.started_ns) / kSecond, "s", params);
-  };
-  {
-    const char* const before = std::getenv("PALPA_CACHE");
-    const std::string folder = before ? before : "";
-    setenv("PALPA_CACHE", "off", 1);
-    SessionCost cost;
-    hold(sessionOptions(options, 1), loading_ns, &cost);
-    started(false, cost);
-    before ? setenv("PALPA_CACHE", folder.c_str(), 1) : unsetenv("PALPA_CACHE");
-  }
-  session::NeedleWorld(sessionOptions(options, 1));  // keeps the patient
-  SessionCost plain, measured;
-  const double session_s = hold(sessionOptions(options, options.trials), loading_ns, &plain);
-  started(true, plain);
-  params["trials"] = options.trials;
-  print("times_real_time", session_s * kSecond / static_cast<double>(plain.run_ns), "1", params);
-  measured.by_stage = true;
-  hold(sessionOptions(options, options.trials), loading_ns, &measured);
-  for (const auto& [stage, share] : sharesOf(measured)) {
-    params["stage"] = stage;
-    print("stage_share", share, "1", params);
+  std::vector<std::string> trackings{options.tracking};
+  if (options.tracking.empty() && options.views) trackings = {kImages};
+  if (options.tracking.empty() && !options.views) trackings = {kImages, kModel};
+  nlohmann::json params{
+      {"tracking", trackings.front()}, {"views", options.views}, {"seed", options.seed}};
+  benchBuiltPatient(sessionOptions(options, 1, trackings.front()), loading_ns, &params);
+  session::NeedleWorld(sessionOptions(options, 1, trackings.front()));  // keeps the patient
+  for (const std::string& tracking : trackings) {
+    params["tracking"] = tracking;
+    benchKeptPatient(sessionOptions(options, options.trials, tracking), loading_ns, params);
   }
 }
 

@@ -112,13 +112,21 @@ void addSession(CLI::App& bench) {
   CLI::App* session = bench.add_subcommand(
       "session", "How many times real time a simulated session runs, how soon it starts, and why");
   session->footer(
-      "Example:\n  palpa bench session > session.jsonl\n  palpa bench session --trials 10");
+      "Example:\n  palpa bench session > session.jsonl\n  palpa bench session --trials 10 "
+      "--tracking model");
   const auto options = std::make_shared<bench::SessionBenchOptions>();
   session->add_option("--trials", options->trials, "Trials of the session (default 4)")
       ->check(inRange(1, 1000));
   session->add_option("--seed", options->seed, "Seed of the first trial (default 1)")
       ->check(atLeastZero());
-  session->add_flag("--views", options->views, "With pictures of the scene");
+  CLI::Option* views = session->add_flag("--views", options->views, "With pictures of the scene");
+  session
+      ->add_option("--tracking", options->tracking,
+                   "Only with the board tracked like this (default: in pictures, then by a model "
+                   "of them)")
+      ->check(oneOf({"images", "model"}))
+      ->type_name("images|model")
+      ->excludes(views);
   session->callback([options] { bench::benchSession(*options); });
 }
 

@@ -116,6 +116,13 @@ bool isLeft(const JsonFile& file, const std::string& field) {
   return side == "left";
 }
 
+bool isByModel(const JsonFile& file) {
+  if (!file.has("tracking")) return false;
+  const std::string by = file.text("tracking");
+  if (by != "images" && by != "model") file.refuse("tracking", "must be images or model");
+  return by == "model";
+}
+
 std::string modeIn(const JsonFile& file) {
   if (!file.has("mode")) return "real";
   static const std::set<std::string> kModes{"real", "degraded", "augmented", "all"};
@@ -136,6 +143,7 @@ CampaignSetting campaignSetting(const JsonFile& file, Engine engine, const fs::p
   s.left_handed = isLeft(file, "handedness");
   s.left_side = isLeft(file, "side");
   s.mode = modeIn(file);
+  s.tracking_model = isByModel(file);
   if (file.has("presentation"))
     s.presentation = presentation::presentationNamed(
         file.text("presentation"), station::assetFile("presentations"), folder, file.name());

@@ -27,6 +27,7 @@ struct CampaignSetting {
   std::string name;
   bool force_feedback = true, augment = false, assess = false;
   bool knows_patient = false, guidance = false, left_handed = false, left_side = false;
+  bool tracking_model = false;  ///< in place of pictures
   std::string mode = "real";
   std::optional<presentation::Presentation> presentation;
 };

@@ -378,6 +378,7 @@ Kind campaignKind() {
                        {"knows_patient", true},
                        {"handedness", "left"},
                        {"side", "left"},
+                       {"tracking", "model"},
                        {"presentation", "pilot"}}}}}},
                   {"campaigns/needle_by_touch.json",
                    session_of("palpation_breast.json", {{"name", "guided"}, {"guidance", true}})},

@@ -103,6 +103,7 @@ TEST(Campaign, RefusesWhatItCannotHold) {
       {{{"settings", {{{"name", "a"}, {"mode", "all"}}}}}, "has no meaning for tasks"},
       {{{"settings", {{{"name", "a"}}, {{"name", "a"}}}}}, "is another setting's, too"},
       {{{"settings", {{{"name", "a"}, {"side", "both"}}}}}, "must be left or right"},
+      {{{"settings", {{{"name", "a"}, {"tracking", "film"}}}}}, "must be images or model"},
       {{{"patient_files", {needle, needle}}}, "has two files named \"paracentesis\""},
       {{{"seeds", {{"form", 1}}}}, "did you mean \"from\"?"}};
   EXPECT_EQ(faultWith(json::object()), "");

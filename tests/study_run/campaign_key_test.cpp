@@ -72,10 +72,10 @@ TEST_F(Keys, ChangeWithEveryFileThatASessionNamesAndNoOther) {
 TEST_F(Keys, ChangeWithEveryFieldOfASetting) {
   const json schema = json::parse(slurped(kAssets / "schemas/campaign.schema.json"));
   const json& fields = schema["properties"]["settings"]["items"]["properties"];
-  const json unusual{{"force_feedback", false}, {"augment", true},  {"assess", true},
-                     {"knows_patient", true},   {"guidance", true}, {"handedness", "left"},
-                     {"side", "left"},          {"mode", "all"},    {"presentation", "pilot"},
-                     {"name", "another"},       {"about", "a word"}};
+  const json unusual{{"force_feedback", false}, {"augment", true},   {"assess", true},
+                     {"knows_patient", true},   {"guidance", true},  {"handedness", "left"},
+                     {"side", "left"},          {"mode", "all"},     {"presentation", "pilot"},
+                     {"name", "another"},       {"about", "a word"}, {"tracking", "model"}};
   const std::set<std::string> of_no_weight{"name", "about"}, of_others{"guidance", "mode"};
   std::vector<std::string> seen = keys();
   for (const auto& field : fields.items()) {

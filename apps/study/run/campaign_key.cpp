@@ -17,8 +17,13 @@ namespace fs = std::filesystem;
 /// The form of a result and of its key; another one makes every key another one.
 constexpr char kForm[] = "palpa campaign session 1";
 /// What a session may read of the program's own, whatever its files name.
-constexpr const char* kReadByAll[]{"patients/reference.json", "stations", "operators",
-                                   "presentations",           "phantoms", "checklists"};
+constexpr const char* kReadByAll[]{"patients/reference.json",
+                                   "stations",
+                                   "operators",
+                                   "presentations",
+                                   "phantoms",
+                                   "checklists",
+                                   "tracking"};
 /// Of the UUIDs of such sessions. [chosen] at random
 constexpr char kNamespace[] = "7d0a6a3e-5a0b-4c0e-9d7c-5f1f3f5c2b61";
 constexpr std::size_t kLongestName = 1024;
@@ -79,7 +84,7 @@ std::string programText(NamedFiles* files) {
 std::string settingText(const CampaignSetting& s) {
   std::string text = "setting " + s.mode;
   for (const bool option : {s.force_feedback, s.augment, s.assess, s.knows_patient, s.guidance,
-                            s.left_handed, s.left_side})
+                            s.left_handed, s.left_side, s.tracking_model})
     text += option ? " 1" : " 0";
   return text + (s.presentation ? " " + presentation::jsonOf(*s.presentation).dump() : "") + "\n";
 }
@@ -142,6 +147,7 @@ session::SessionOptions sessionOptions(const Campaign& campaign, std::size_t n,
   o.assess = setting.assess;
   o.guidance = setting.guidance;
   o.mode = setting.mode;
+  if (setting.tracking_model) o.tracking = session::Tracking::model;
   o.fast = o.no_views = o.quiet = true;
   o.display = scene::Display::offscreen;
   o.report = o.noted = false;
