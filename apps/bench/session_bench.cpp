@@ -45,7 +45,7 @@ double hold(session::SessionOptions options, std::int64_t loading_ns, SessionCos
   return session_s;
 }
 
-/// In the order of the words. A model works in the camera's step, without a thread of its own.
+/// In the order of the words. A model works in the camera's step: nothing is beside the thread.
 std::map<std::string, double> sharesOf(const SessionCost& cost, const std::string& tracking) {
   const auto all = static_cast<double>(cost.run_ns);
   std::map<std::string, double> shares;
@@ -54,8 +54,9 @@ std::map<std::string, double> sharesOf(const SessionCost& cost, const std::strin
     shares[name] = static_cast<double>(ns) / all;
     steps_ns += ns;
   }
-  shares["rest"] = static_cast<double>(cost.thread_ns - steps_ns) / all;
-  if (tracking == kModel) return shares;
+  const bool beside = tracking == kImages;
+  shares["rest"] = static_cast<double>((beside ? cost.thread_ns : cost.run_ns) - steps_ns) / all;
+  if (!beside) return shares;
   shares["drawing"] = static_cast<double>(cost.drawing_ns) / all;
   shares["tracking"] = static_cast<double>(cost.run_ns - cost.thread_ns - cost.drawing_ns) / all;
   return shares;

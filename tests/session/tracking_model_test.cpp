@@ -121,7 +121,7 @@ struct Pairs {
 
 struct Figures {
   double log_total;  ///< of the trial's score
-  double log_error;  ///< of the registration at the entry point, mm: the median that a report states
+  double log_error;  ///< mm; of the registration at the entry point, the report's median
 };
 
 Figures figuresOf(Tracking by, std::uint64_t seed, NeedleWorld& world) {
