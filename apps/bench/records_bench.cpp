@@ -165,18 +165,18 @@ void addDrawn(record::RecordStore& store, int n) {
   }
 }
 
-struct Measured {
+struct CommandCost {
   double seconds = 0;
   os::Spent spent;
 };
 
 /// A command of this program in a process of its own. The quickest of three: what else the computer
 /// does only ever adds.
-Measured measured(std::vector<std::string> command, const std::string& records,
-                  const fs::path& folder) {
+CommandCost measured(std::vector<std::string> command, const std::string& records,
+                     const fs::path& folder) {
   const fs::path out = folder / "out", log = folder / "log";
   command.insert(command.end(), {"--records", records, "--out", out.string()});
-  Measured best;
+  CommandCost best;
   for (int turn = 0; turn < 3; ++turn) {
     const runtime::SteadyClock clock;
     const os::Spent spent = os::runToEnd(command, log);
@@ -191,7 +191,7 @@ Measured measured(std::vector<std::string> command, const std::string& records,
   return best;
 }
 
-void printMeasured(const std::string& what, const Measured& m, nlohmann::json params) {
+void printMeasured(const std::string& what, const CommandCost& m, nlohmann::json params) {
   params["processor_s"] = m.spent.processor_s;
   print(what + "_seconds", m.seconds, "s", params);
   params.erase("processor_s");
