@@ -416,7 +416,8 @@ std::vector<Kind> operatorKinds() {
            .samples = {{"tracking/virtual_camera.json", {{"about", "a test"}}}},
            .read = [](const fs::path& file) { twin::readTrackingFigures(file); },
            // Places and distances rise; at each place six numbers.
-           .stricter = {"/aside.*", "/distances/./(distance_mm|bias_px|strength|least_width_px).*"},
+           .stricter = {"/aside.*",
+                        "/distances/[0-9]+/(distance_mm|bias_px|strength|least_width_px).*"},
            .forgiving = {},
            .elsewhere = {}},
           {.name = "operator_squeeze",
