@@ -97,12 +97,12 @@ void expectAllAlike(const Both& both) {
 }
 
 TEST(TrackingModel, PoseErrorsAreThoseOfPictures) {
-  expectAllAlike(bothAt(500, test::counted(10, 800)));
+  expectAllAlike(bothAt(500, test::counted(24, 800)));
 }
 
 /// Where tags are so small that some are not found.
 TEST(TrackingModel, PoseErrorsAreThoseOfPicturesFarAway) {
-  const Both both = bothAt(950, test::counted(6, 400));
+  const Both both = bothAt(950, test::counted(12, 400));
   EXPECT_GT(figuresOf(both.pictures).tags_missed, 0.02);
   expectAllAlike(both);
 }
