@@ -56,8 +56,8 @@ TEST(BenchSession, SaysHowSoonAndHowFastAndWhatEveryStageTakes) {
   EXPECT_EQ(metrics, expected);
   EXPECT_NEAR(shares["images"], 1, 1e-9);
   EXPECT_NEAR(shares["model"], 1, 1e-9);
-  std::set<std::string> both{"haptic", "bench", "geometry", "camera",
-                             "task",   "scene", "recorder", "rest"};
+  std::set<std::string> both{"haptic", "bench",    "geometry", "camera", "task",
+                             "scene",  "recorder", "progress", "watch",  "rest"};
   EXPECT_EQ(stages["model"], both);
   both.insert({"drawing", "tracking"});
   EXPECT_EQ(stages["images"], both);
