@@ -24,6 +24,8 @@ constexpr const char* kSessionExamples = R"(Examples:
       a simulated expert, in virtual time: the same command gives the same numbers
   palpa paracentesis --operator novice --force-feedback off --trials 5 --fast
       the same without force feedback, five trials
+  palpa paracentesis --operator expert --trials 100 --fast --no-views --tracking model
+      many trials in little time: what tracking the board would show, without drawing the camera's pictures
   palpa paracentesis --camera 'shots/left*.jpg' --intrinsics left.yml --board chessboard:9x6:0.025 --fast
       the patient on your own recorded pictures
   palpa paracentesis --igtl 18944
