@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "anatomy/base/error.h"
 #include "apps/assess/statistics/power.h"
@@ -131,27 +130,36 @@ Figures figuresOf(Tracking by, std::uint64_t seed, NeedleWorld& world) {
           std::log(session.accuracy.value().entry_median_mm)};
 }
 
-/// Pairs for a margin of 10 %, planned on sessions with pictures as if the two of a pair had
-/// nothing in common: any two differ by their own scatter times the root of two.
-int plannedFor(const char* name, const std::vector<double>& pilot, double margin) {
-  constexpr double kPower = 0.9;
-  constexpr int kLeastPairs = 500;
-  const double sd = std::numbers::sqrt2 * statistics::momentsOf(pilot).sd;
-  const int needed = sd > 0 ? statistics::pairsForEquivalence(margin / sd, kPower) : 2;
-  std::printf("%s: differences scatter by %.3f (%zu sessions of other seeds), %d pairs needed\n",
-              name, sd, pilot.size(), needed);
-  return std::max(needed, kLeastPairs);
+struct Compared {
+  Pairs totals, errors;
+};
+
+void addPair(std::uint64_t seed, NeedleWorld& world, Compared* all) {
+  const Figures images = figuresOf(Tracking::images, seed, world),
+                model = figuresOf(Tracking::model, seed, world);
+  all->totals.images.push_back(images.log_total);
+  all->totals.model.push_back(model.log_total);
+  all->errors.images.push_back(images.log_error);
+  all->errors.model.push_back(model.log_error);
+}
+
+/// Pairs that are needed for this margin, planned on those of other seeds.
+int plannedBy(const char* name, const Pairs& pilot, double margin) {
+  constexpr double kPower = 0.9, kUpper = 1.33;  // what 24 pairs scatter by: its 95 % upper bound
+  const double sd = statistics::equivalenceOfPairs(pilot.model, pilot.images, margin).sd;
+  const int needed = sd > 0 ? statistics::pairsForEquivalence(margin / (kUpper * sd), kPower) : 2;
+  std::printf("%s: differences scatter by %.4f (%zu pairs of other seeds), %d pairs needed\n", name,
+              sd, pilot.images.size(), needed);
+  return needed;
 }
 
 int plannedPairs(NeedleWorld& world, double margin) {
   constexpr std::uint64_t kPilot = 40001;
-  std::vector<double> totals, errors;
-  for (int i = 0; i < test::counted(2, 24); ++i) {
-    const Figures figures = figuresOf(Tracking::images, kPilot + std::uint64_t(i), world);
-    totals.push_back(figures.log_total);
-    errors.push_back(figures.log_error);
-  }
-  return std::max(plannedFor("total", totals, margin), plannedFor("error", errors, margin));
+  constexpr int kLeastPairs = 500;
+  Compared pilot;
+  for (int i = 0; i < test::counted(2, 24); ++i) addPair(kPilot + std::uint64_t(i), world, &pilot);
+  return std::max({plannedBy("total", pilot.totals, margin),
+                   plannedBy("error", pilot.errors, margin), kLeastPairs});
 }
 
 statistics::Equivalence judged(const char* name, const Pairs& pairs, double margin) {
@@ -179,19 +187,13 @@ TEST(TrackingModelSession, ScoresAndStatedErrorsAreThoseOfPictures) {
   const auto world = test::fullCounts() ? std::make_unique<NeedleWorld>(options)
                                         : std::make_unique<Quick<NeedleWorld>>(options);
   const int planned = plannedPairs(*world, margin), pairs = test::counted(3, planned);
-  Pairs totals, errors;
+  Compared all;
   for (int i = 0; i < pairs; ++i) {
-    const std::uint64_t seed = kJudged + std::uint64_t(i);
-    const Figures images = figuresOf(Tracking::images, seed, *world),
-                  model = figuresOf(Tracking::model, seed, *world);
-    totals.images.push_back(images.log_total);
-    totals.model.push_back(model.log_total);
-    errors.images.push_back(images.log_error);
-    errors.model.push_back(model.log_error);
+    addPair(kJudged + std::uint64_t(i), *world, &all);
     if (i % 10 == 9) std::printf("%d of %d pairs\n", i + 1, pairs), std::fflush(stdout);
   }
-  const statistics::Equivalence total = judged("total", totals, margin),
-                                error = judged("error", errors, margin);
+  const statistics::Equivalence total = judged("total", all.totals, margin),
+                                error = judged("error", all.errors, margin);
   if (test::fullCounts()) {
     EXPECT_LT(total.p, 0.05);
     EXPECT_LT(error.p, 0.05);
