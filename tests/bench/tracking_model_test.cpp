@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <utility>
 
 #include "anatomy/base/whole_file.h"
 #include "apps/bench/tracking_fit.h"
@@ -64,47 +65,48 @@ double chance(const Both& both, Figure figure) {
   return 4 * std::sqrt(squares * double(n - 1) / double(n));
 }
 
-/// Within 5 % of the pictures' figure, or of `whole` where that is given.
-void expectAlike(const char* name, const Both& both, Figure figure, double whole = 0) {
+/// Within this share of the pictures' figure, or of `whole` where that is given.
+void expectAlike(const char* name, const Both& both, Figure figure, double share,
+                 double whole = 0) {
   const double pictures = figure(figuresOf(both.pictures)), model = figure(figuresOf(both.model));
   const double allowed =
-      0.05 * (whole > 0 ? whole : pictures) + (test::fullCounts() ? 0 : chance(both, figure));
+      share * (whole > 0 ? whole : pictures) + (test::fullCounts() ? 0 : chance(both, figure));
   std::printf("%s: pictures %.4f, model %.4f, allowed %.4f apart\n", name, pictures, model,
               allowed);
   EXPECT_NEAR(model, pictures, allowed) << name;
 }
 
-void expectAllAlike(const Both& both) {
-  expectAlike("shift, mm", both, [](const PathFigures& f) { return f.shift_mm; });
-  expectAlike("turn, mrad", both, [](const PathFigures& f) { return f.turn_mrad; });
-  expectAlike("filtered shift, mm", both, [](const PathFigures& f) { return f.filtered_shift_mm; });
-  expectAlike("filtered turn, mrad", both,
-              [](const PathFigures& f) { return f.filtered_turn_mrad; });
-  // Within a hundredth of all tags, a twentieth of all pictures.
+/// Root mean squares within `share`; correlations too, of which the whole is 1; missed ones within
+/// a hundredth of all tags, a twentieth of all pictures.
+void expectAllAlike(const Both& both, double share) {
+  const std::pair<const char*, Figure> spreads[]{
+      {"shift, mm", [](const PathFigures& f) { return f.shift_mm; }},
+      {"turn, mrad", [](const PathFigures& f) { return f.turn_mrad; }},
+      {"filtered shift, mm", [](const PathFigures& f) { return f.filtered_shift_mm; }},
+      {"filtered turn, mrad", [](const PathFigures& f) { return f.filtered_turn_mrad; }}};
+  for (const auto& [name, figure] : spreads) expectAlike(name, both, figure, share);
+  const std::pair<const char*, Figure> correlations[]{
+      {"autocorrelation, 1", [](const PathFigures& f) { return f.autocorrelation[0]; }},
+      {"autocorrelation, 3", [](const PathFigures& f) { return f.autocorrelation[1]; }},
+      {"autocorrelation, 8", [](const PathFigures& f) { return f.autocorrelation[2]; }},
+      {"autocorrelation, 15", [](const PathFigures& f) { return f.autocorrelation[3]; }}};
+  for (const auto& [name, figure] : correlations) expectAlike(name, both, figure, share, 1);
   expectAlike(
-      "tags missed", both, [](const PathFigures& f) { return f.tags_missed; }, 0.2);
+      "tags missed", both, [](const PathFigures& f) { return f.tags_missed; }, 0.01, 1);
   expectAlike(
-      "poses missed", both, [](const PathFigures& f) { return f.poses_missed; }, 1);
-  // A correlation's whole is 1.
-  expectAlike(
-      "autocorrelation, 1", both, [](const PathFigures& f) { return f.autocorrelation[0]; }, 1);
-  expectAlike(
-      "autocorrelation, 3", both, [](const PathFigures& f) { return f.autocorrelation[1]; }, 1);
-  expectAlike(
-      "autocorrelation, 8", both, [](const PathFigures& f) { return f.autocorrelation[2]; }, 1);
-  expectAlike(
-      "autocorrelation, 15", both, [](const PathFigures& f) { return f.autocorrelation[3]; }, 1);
+      "poses missed", both, [](const PathFigures& f) { return f.poses_missed; }, 0.05, 1);
 }
 
+/// Where the shipped benches have their camera.
 TEST(TrackingModel, PoseErrorsAreThoseOfPictures) {
-  expectAllAlike(bothAt(500, test::counted(24, 800)));
+  expectAllAlike(bothAt(500, test::counted(24, 800)), 0.05);
 }
 
-/// Where tags are so small that some are not found.
-TEST(TrackingModel, PoseErrorsAreThoseOfPicturesFarAway) {
+/// Where tags are so small that some are not found the model is coarser (apps/twin/README.md).
+TEST(TrackingModel, PoseErrorsAreNearlyThoseOfPicturesFarAway) {
   const Both both = bothAt(950, test::counted(12, 400));
   EXPECT_GT(figuresOf(both.pictures).tags_missed, 0.02);
-  expectAllAlike(both);
+  expectAllAlike(both, 0.1);
 }
 
 /// Tags drawn as the model draws them give back what they were drawn with.
