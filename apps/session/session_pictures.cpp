@@ -35,7 +35,8 @@ SessionPictures::SessionPictures(const SessionOptions& options, const station::S
     : station_(station),
       file_(options.camera),
       camera_(station.camera),
-      rate_Hz_(station.camera_rate_Hz) {
+      rate_Hz_(station.camera_rate_Hz),
+      seen_(!options.no_views || options.record_video) {
   if (!file_.empty())
     source_ = ar::isVideoFile(file_) ? Source::film : Source::photographs;
   else if (station_.camera_setup.driver == station::CameraDriver::webcam)
@@ -80,6 +81,9 @@ runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mo
       static_cast<std::int64_t>(1e9 * std::min(station_.camera_latency_s, 1 / rate_Hz_));
   settings.mode = mode;
   settings.photographs = photographs();
+  settings.parts = mode == runtime::TimeMode::virtual_time && !seen_ && fromBench() &&
+                   station_.boards.empty() && !station_.tracker &&
+                   !station_.file.has("twin/camera_faults");
   if (file_.empty() && station_.tracker)
     settings.tracked = {station_.tracker->sigma, station_.tracker->sigma_rad,
                         station_.tracker->stale_s};
@@ -122,7 +126,7 @@ runtime::CameraActivity::Exposer SessionPictures::exposer(twin::VirtualBench* be
                                                           const runtime::Clock& clock) {
   if (fromBench()) return bench->exposer();
   return [this, &clock](std::int64_t now_ns, std::uint64_t number) {
-    return [this, &clock, now_ns, number]() { return take(now_ns, number, clock); };
+    return [this, &clock, now_ns, number](const cv::Rect&) { return take(now_ns, number, clock); };
   };
 }
 

@@ -53,6 +53,7 @@ class SessionPictures {
   Source source_ = Source::bench;
   calibration::CameraModel camera_;
   double rate_Hz_;
+  const bool seen_;                       ///< by somebody besides the tracker
   std::unique_ptr<ar::Camera> pictures_;  ///< null: the bench's, or a webcam that is not open
   std::size_t photographs_ = 0;
   std::unique_ptr<ar::Board> board_;
