@@ -23,12 +23,14 @@ constexpr double kWallDepth = 1;      // metres
 void castRays(const CameraModel& camera, cv::Mat* x, cv::Mat* y) {
   x->create(camera.height, camera.width, CV_32F);
   y->create(camera.height, camera.width, CV_32F);
-  for (int v = 0; v < camera.height; ++v)
+  for (int v = 0; v < camera.height; ++v) {
+    Vec3 p = camera.unproject({0, double(v)});
     for (int u = 0; u < camera.width; ++u) {
-      const Vec3 p = camera.unproject({double(u), double(v)});
+      p = camera.unproject({double(u), double(v)}, p);
       x->at<float>(v, u) = float(p.x());
       y->at<float>(v, u) = float(p.y());
     }
+  }
 }
 
 /// A lamp at the upper left, and the lens's fall-off toward the corners: 0.72 to 1.05 of the light.
