@@ -172,7 +172,9 @@ TEST(CameraActivity, InPartsItFindsWhatItFindsInTheWhole) {
   const Followed whole = follow(false), parts = follow(true);
   for (std::size_t i = 0; i < whole.poses.size(); ++i) {
     ASSERT_EQ(parts.poses[i].has_value(), whole.poses[i].has_value()) << i;
-    if (whole.poses[i]) EXPECT_EQ(parts.poses[i]->matrix(), whole.poses[i]->matrix()) << i;
+    if (whole.poses[i]) {
+      EXPECT_EQ(parts.poses[i]->matrix(), whole.poses[i]->matrix()) << i;
+    }
     const std::vector<cv::Rect>& asked = parts.asked[i];
     const bool sought = i == 0 || i == 7;  // anywhere: at first, and after the push
     ASSERT_FALSE(asked.empty()) << i;
