@@ -103,7 +103,7 @@ TEST(Campaign, RefusesWhatItCannotHold) {
       {{{"settings", {{{"name", "a"}, {"mode", "all"}}}}}, "has no meaning for tasks"},
       {{{"settings", {{{"name", "a"}}, {{"name", "a"}}}}}, "is another setting's, too"},
       {{{"settings", {{{"name", "a"}, {"side", "both"}}}}}, "must be left or right"},
-      {{{"patient_files", {needle, needle}}}, "has two files named \"paracentesis\""},
+      {{{"patient_files", {needle, needle}}}, "has a second patient named \"paracentesis\""},
       {{{"seeds", {{"form", 1}}}}, "did you mean \"from\"?"}};
   EXPECT_EQ(faultWith(json::object()), "");
   EXPECT_EQ(faultWith({{"seeds", {{"count", 8333}}}}), "") << "99,996 sessions";
