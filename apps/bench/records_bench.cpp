@@ -126,7 +126,7 @@ record::StoredTrial drawnTrial(DrawnTrainee& who, int number, int trial) {
                      .dump();
   for (int e = 0; e < kEvents; ++e)
     t.events.push_back(
-        {t.start_ns + e * 1'000'000'000, "wall", "Wall punctured: the skin and fascia", 0});
+        {t.start_ns + e * runtime::kSecond, "wall", "Wall punctured: the skin and fascia", 0});
   return t;
 }
 

@@ -57,5 +57,23 @@ TEST(BenchSession, SaysHowSoonAndHowFastAndWhatEveryStageTakes) {
     EXPECT_EQ(stages.count(stage), 1u) << stage;
 }
 
+TEST(BenchRecords, MeasuresPageAndExportOfDrawnTrials) {
+  const Folder here;
+  const Outcome outcome = palpa({"bench", "records", "--trials", "100"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::multiset<std::string> metrics;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto metric = nlohmann::json::parse(line);
+    EXPECT_GT(metric["value"], 0) << line;
+    EXPECT_EQ(metric["params"]["store"], "sqlite");
+    EXPECT_EQ(metric["params"]["trials"], 100);
+    metrics.insert(metric["metric"]);
+  }
+  const std::multiset<std::string> expected{"cohort_peak_mb", "cohort_seconds", "export_peak_mb",
+                                            "export_seconds"};
+  EXPECT_EQ(metrics, expected);
+}
+
 }  // namespace
 }  // namespace palpa::cli_test
