@@ -215,7 +215,8 @@ void benchRecords(const RecordsBenchOptions& options) {
   int trainees = 0;
   for (const int trials : sizes) {
     while (trainees * kTrialsEach < trials) addDrawn(store, ++trainees);
-    const nlohmann::json params{{"store", record::isServer(records) ? "postgresql" : "sqlite"},
+    const nlohmann::json params{{"data", "simulated"},
+                                {"store", record::isServer(records) ? "postgresql" : "sqlite"},
                                 {"trials", trainees * kTrialsEach},
                                 {"trainees", trainees}};
     printMeasured("cohort", measured({"report", "cohort"}, records, folder.path()), params);

@@ -60,7 +60,10 @@ std::map<std::string, double> sharesOf(const SessionCost& cost) {
 
 void benchSession(const SessionBenchOptions& options) {
   const std::int64_t loading_ns = os::processorTime_ns();
-  nlohmann::json params{{"tracking", "images"}, {"views", options.views}, {"seed", options.seed}};
+  nlohmann::json params{{"data", "simulated"},
+                        {"tracking", "images"},
+                        {"views", options.views},
+                        {"seed", options.seed}};
   const auto started = [&](bool cached, const SessionCost& cost) {
     params["cached"] = cached;
     print("start_seconds", static_cast<double>(cost.started_ns) / kSecond, "s", params);

@@ -143,24 +143,23 @@ void VirtualCamera::blur(cv::Mat* picture) const {
 }
 
 cv::Mat VirtualCamera::render(const Pose& X_CW_true, std::uint64_t frame_number) const {
-  cv::Mat picture = background(X_CW_true, whole());
-  blur(&picture);
-  expose(frame_number, whole(), &picture);
-  return picture;
+  return render(X_CW_true, frame_number, whole());
 }
 
 cv::Mat VirtualCamera::render(const Pose& X_CW_true, std::uint64_t frame_number,
                               const cv::Rect& part) const {
-  const cv::Rect region = part & whole();
-  if (region.empty()) return render(X_CW_true, frame_number);
+  const cv::Rect looked_at = part & whole(), region = looked_at.empty() ? whole() : looked_at;
   const int reach = int(std::ceil(4 * settings_.blur_sigma_px)) + 1;  // of the blur, on either side
   const cv::Rect drawn =
       cv::Rect(region.tl() - cv::Point(reach, reach), region.br() + cv::Point(reach, reach)) &
       whole();
   cv::Mat seen = background(X_CW_true, drawn);
   blur(&seen);
-  cv::Mat picture(whole().size(), CV_8U, cv::Scalar(0));
-  seen(region - drawn.tl()).copyTo(picture(region));
+  cv::Mat picture = seen;
+  if (region != whole()) {
+    picture = cv::Mat(whole().size(), CV_8U, cv::Scalar(0));
+    seen(region - drawn.tl()).copyTo(picture(region));
+  }
   expose(frame_number, region, &picture);
   return picture;
 }

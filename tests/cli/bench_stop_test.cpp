@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "program.h"
 
@@ -15,9 +14,7 @@ TEST(BenchStop, MeasuresEverySourceWithEveryHungPart) {
   const Outcome outcome = palpa({"bench", "stop", "--presses", "2"}, here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::set<std::string> metrics;
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto metric = nlohmann::json::parse(line);
+  for (const nlohmann::json& metric : jsonLines(outcome)) {
     metrics.insert(metric["metric"]);
     EXPECT_EQ(metric["unit"], "ms");
     EXPECT_EQ(metric["params"]["presses"], 2);
@@ -37,10 +34,9 @@ TEST(BenchSession, SaysHowSoonAndHowFastAndWhatEveryStageTakes) {
   std::multiset<std::string> metrics;
   std::set<std::string> stages;
   double shares = 0;
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto metric = nlohmann::json::parse(line);
-    EXPECT_GT(metric["value"], 0) << line;
+  for (const nlohmann::json& metric : jsonLines(outcome)) {
+    EXPECT_GT(metric["value"], 0) << metric;
+    EXPECT_EQ(metric["params"]["data"], "simulated");
     EXPECT_EQ(metric["params"]["tracking"], "images");
     if (metric["metric"] == "stage_share") {
       shares += metric["value"].get<double>();
@@ -62,10 +58,9 @@ TEST(BenchRecords, MeasuresPageAndExportOfDrawnTrials) {
   const Outcome outcome = palpa({"bench", "records", "--trials", "100"}, here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::multiset<std::string> metrics;
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto metric = nlohmann::json::parse(line);
-    EXPECT_GT(metric["value"], 0) << line;
+  for (const nlohmann::json& metric : jsonLines(outcome)) {
+    EXPECT_GT(metric["value"], 0) << metric;
+    EXPECT_EQ(metric["params"]["data"], "simulated");
     EXPECT_EQ(metric["params"]["store"], "sqlite");
     EXPECT_EQ(metric["params"]["trials"], 100);
     metrics.insert(metric["metric"]);

@@ -61,8 +61,8 @@ void keepOnlyWhatWasPrinted(const fs::path& folder) {
     if (file.filename() != kPrinted) fs::remove_all(file);
 }
 
-/// The session itself, in its folder.
-bool isHeldToItsEnd(const PlannedCampaign& plan, std::size_t n, const fs::path& work) try {
+/// In this folder; whether it went to its end.
+bool holdSessionIn(const fs::path& work, const PlannedCampaign& plan, std::size_t n) try {
   session::SessionOptions options = sessionOptions(plan.campaign, n, plan.keys[n]);
   options.out = work.string();
   options.report = plan.options.keeps == CampaignKeeps::reports;
@@ -85,7 +85,7 @@ void holdOne(const PlannedCampaign& plan, std::size_t n, const os::Report& repor
   if (const std::error_code problem = os::makeFolders(work))
     failFile("cannot be made", work, problem);
   os::sendOutputTo(work / kPrinted);
-  if (!isHeldToItsEnd(plan, n, work)) return report(kLeft);
+  if (!holdSessionIn(work, plan, n)) return report(kLeft);
   removeRest(work, plan.options.keeps);
   putInPlace(work, plan.result(n));
   fs::remove(lock_file);

@@ -68,7 +68,7 @@ std::size_t collectTable(const PlannedCampaign& plan);
 /// Opens the records and names the simulated people, so that what is wrong with them is told before
 /// anything is computed. Nothing where there are none to fill.
 void prepareRecords(const PlannedCampaign& plan);
-/// The records get what they lack.
+/// The records, prepared before, get what they lack.
 void deliverCampaign(const PlannedCampaign& plan);
 
 /// Computes what is missing of its part, a process a session. Where it was all, the table is

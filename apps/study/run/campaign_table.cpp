@@ -128,7 +128,6 @@ void prepareRecords(const PlannedCampaign& plan) {
 
 void deliverCampaign(const PlannedCampaign& plan) {
   if (plan.options.records.empty()) return;
-  prepareRecords(plan);
   const std::string url = evidence::absoluteRecords(plan.options.records);
   record::RecordStore store(url);
   session::WorkProgress progress("sessions in the records", static_cast<int>(plan.keys.size()),
@@ -154,6 +153,7 @@ void collectCampaign(const CampaignOptions& options) {
   if (!fs::exists(plan.out / "results"))
     throw UsageError("holds no results of a campaign", plan.out.string(),
                      "Run it first: palpa campaign " + options.file);
+  prepareRecords(plan);
   if (const std::size_t missing = collectTable(plan))
     throw Error(std::to_string(missing) + " of " + counted(plan.keys.size(), "session") +
                     " missing in the table",
