@@ -121,6 +121,12 @@ Vec3 CameraModel::unproject(const Eigen::Vector2d& pixel) const {
   return {p.x(), p.y(), 1.0};
 }
 
+Vec3 CameraModel::unproject(const Eigen::Vector2d& pixel, const Vec3& beside) const {
+  const Vec2 target((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
+  const Vec2 p = newton(distortion, target, beside.head<2>());
+  return {p.x(), p.y(), 1.0};
+}
+
 void validate(const CameraModel& camera, const std::string& where) {
   const auto sane = [](int size) { return size >= 16 && size <= 20000; };
   require(sane(camera.width), "image_width must be 16 to 20000 px", where);

@@ -33,6 +33,9 @@ struct CameraModel {
   /// Unit-depth point on the ray through a pixel: inverse of `project` by fixed-point iteration,
   /// finished by Newton's method; its projection meets the pixel to 1e-10 px inside the picture.
   Vec3 unproject(const Eigen::Vector2d& pixel) const;
+  /// The same ray, found from that through a pixel beside it by Newton's method alone: for every
+  /// pixel of a picture, at a fraction of the cost.
+  Vec3 unproject(const Eigen::Vector2d& pixel, const Vec3& beside) const;
 };
 
 /// Throws Error unless the numbers are those of a real camera: sizes 16 to 20000 px, finite focal

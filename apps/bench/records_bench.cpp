@@ -126,7 +126,7 @@ record::StoredTrial drawnTrial(DrawnTrainee& who, int number, int trial) {
                      .dump();
   for (int e = 0; e < kEvents; ++e)
     t.events.push_back(
-        {t.start_ns + e * 1'000'000'000, "wall", "Wall punctured: the skin and fascia", 0});
+        {t.start_ns + e * runtime::kSecond, "wall", "Wall punctured: the skin and fascia", 0});
   return t;
 }
 
@@ -215,7 +215,8 @@ void benchRecords(const RecordsBenchOptions& options) {
   int trainees = 0;
   for (const int trials : sizes) {
     while (trainees * kTrialsEach < trials) addDrawn(store, ++trainees);
-    const nlohmann::json params{{"store", record::isServer(records) ? "postgresql" : "sqlite"},
+    const nlohmann::json params{{"data", "simulated"},
+                                {"store", record::isServer(records) ? "postgresql" : "sqlite"},
                                 {"trials", trainees * kTrialsEach},
                                 {"trainees", trainees}};
     printMeasured("cohort", measured({"report", "cohort"}, records, folder.path()), params);

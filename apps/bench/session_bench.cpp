@@ -101,8 +101,10 @@ void benchSession(const SessionBenchOptions& options) {
   std::vector<std::string> trackings{options.tracking};
   if (options.tracking.empty() && options.views) trackings = {kImages};
   if (options.tracking.empty() && !options.views) trackings = {kImages, kModel};
-  nlohmann::json params{
-      {"tracking", trackings.front()}, {"views", options.views}, {"seed", options.seed}};
+  nlohmann::json params{{"data", "simulated"},
+                        {"tracking", trackings.front()},
+                        {"views", options.views},
+                        {"seed", options.seed}};
   benchBuiltPatient(sessionOptions(options, 1, trackings.front()), loading_ns, &params);
   session::NeedleWorld(sessionOptions(options, 1, trackings.front()));  // keeps the patient
   for (const std::string& tracking : trackings) {

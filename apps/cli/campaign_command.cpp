@@ -86,8 +86,10 @@ void addActions(CLI::App& command, Actions& actions) {
 /// What is computed, and where; --keep.
 const CLI::Option* addRunning(CLI::App& command, CampaignOptions& o) {
   command
-      .add_option("--out", o.out,
-                  "Folder for the results (default out/campaign-<id>); campaigns may share one")
+      .add_option(
+          "--out", o.out,
+          "Folder for the results (default out/campaign-<id>); campaigns may share one: its "
+          "trials.csv is of the one that was collected last")
       ->type_name("DIR");
   command
       .add_option("--jobs", o.jobs,

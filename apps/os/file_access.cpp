@@ -144,7 +144,7 @@ bool isAt(const fs::path& file, int descriptor) {
 }  // namespace
 
 std::unique_ptr<FileLock> FileLock::exclusive(const std::filesystem::path& file, Missing missing) {
-  const int flags = missing == Missing::is_made ? O_RDWR | O_CREAT | O_NOFOLLOW : O_RDONLY;
+  const int flags = O_RDWR | (missing == Missing::is_made ? O_CREAT | O_NOFOLLOW : 0);
   for (;;) {
     const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0600);
     if (descriptor < 0) return nullptr;

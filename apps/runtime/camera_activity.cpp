@@ -30,8 +30,9 @@ CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
       expose_(std::move(expose)),
       tracker_(board, camera, {{}, !settings.photographs}),
       settings_(settings),
+      size_(camera.width, camera.height),
       tracked_(trackOf(settings.tracked)),
-      health_({camera.width, camera.height}),
+      health_(size_),
       observer_(std::move(observer)) {
   for (const auto& other : settings_.others)
     other_trackers_.emplace_back(*other, camera,
@@ -50,13 +51,14 @@ CameraView goneIn(CameraView view, const std::string& why) {
 }  // namespace
 
 CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number) {
+  if (settings_.parts) return seeParts(exposure, t_ns, number);
   CameraView view;
   view.t_exposure_ns = t_ns;
   view.number = number;
   view.tracking = tracker_.state();
   std::optional<ar::Frame> frame;
   try {
-    frame = exposure();
+    frame = exposure({});
     // Of the source alone: what goes wrong in the tracking, or memory, is told to the executive
   } catch (const Error& e) {
     return goneIn(std::move(view), e.what());
@@ -79,6 +81,21 @@ CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std:
   return view;
 }
 
+CameraView CameraActivity::seeParts(const Exposure& exposure, std::int64_t t_ns,
+                                    std::uint64_t number) {
+  CameraView view;
+  view.t_exposure_ns = t_ns;
+  view.number = number;
+  const auto picture = [&](const cv::Rect& part) {
+    const std::optional<ar::Frame> frame = exposure(part);
+    if (frame) view.source = frame->source;
+    return frame ? frame->image : cv::Mat();
+  };
+  view.pose = tracker_.see(picture, size_, t_ns);
+  place(&view);
+  return view;
+}
+
 /// Without a picture: what goes on from the points is the same.
 CameraView CameraActivity::find(std::int64_t t_ns, std::uint64_t number) {
   CameraView view;
@@ -86,9 +103,14 @@ CameraView CameraActivity::find(std::int64_t t_ns, std::uint64_t number) {
   view.number = number;
   view.source = "tracking model";
   view.pose = tracker_.take(settings_.finder(t_ns, number), t_ns);
-  view.X_CW = poseAt(tracker_.track(), t_ns);
-  view.tracking = tracker_.state();
+  place(&view);
   return view;
+}
+
+/// By its own track.
+void CameraActivity::place(CameraView* view) const {
+  view->X_CW = poseAt(tracker_.track(), view->t_exposure_ns);
+  view->tracking = tracker_.state();
 }
 
 void CameraActivity::track(const cv::Mat& image, CameraView* view) {
@@ -100,8 +122,7 @@ void CameraActivity::track(const cv::Mat& image, CameraView* view) {
     follow(view);
   } else {
     if (fresh) view->pose = tracker_.see(image, view->t_exposure_ns);
-    view->X_CW = poseAt(tracker_.track(), view->t_exposure_ns);
-    view->tracking = tracker_.state();
+    place(view);
   }
   for (ar::BoardTracker& other : other_trackers_) {
     if (fresh) other.see(image, view->t_exposure_ns);

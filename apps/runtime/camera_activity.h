@@ -33,6 +33,10 @@ class CameraActivity final : public Activity {
     std::int64_t latency_ns = 50'000'000;  ///< exposure to published pose; at most the period
     TimeMode mode = TimeMode::virtual_time;
     bool photographs = false;  ///< each picture stands for itself: no motion between them
+    /// Nobody sees the pictures: a part is exposed where the table's board is expected, and the
+    /// whole where it is not found there. In virtual time, without other boards; views have no
+    /// picture.
+    bool parts = false;
     /// X_CW comes by `Bus::tracker_to_camera`; the table's board is not looked for
     std::optional<Tracking> tracked{};
     /// In place of pictures, in virtual time: the exposer is not asked
@@ -42,8 +46,9 @@ class CameraActivity final : public Activity {
   };
   /// Freezes the inputs of a picture exposed now, and returns what takes it (run on any thread).
   /// The inner function returns nothing when the source has ended; the frame's time of exposure is
-  /// session time.
-  using Exposure = std::function<std::optional<ar::Frame>()>;
+  /// session time. With `Settings::parts` the same picture may be asked for twice, and only this
+  /// part of it will be looked at (empty: all).
+  using Exposure = std::function<std::optional<ar::Frame>(const cv::Rect& part)>;
   using Exposer = std::function<Exposure(std::int64_t now_ns, std::uint64_t number)>;
   using Observer = std::function<void(const CameraView&)>;  ///< called with every result
 
@@ -56,8 +61,10 @@ class CameraActivity final : public Activity {
  private:
   CameraView see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number);
   CameraView find(std::int64_t t_ns, std::uint64_t number);
+  CameraView seeParts(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number);
   std::future<CameraView> begin(std::int64_t now_ns, std::uint64_t number);
   void track(const cv::Mat& image, CameraView* view);
+  void place(CameraView* view) const;
   void follow(CameraView* view);
   std::int64_t publish(const CameraView& view, std::int64_t exposed_ns, std::int64_t now_ns);
 
@@ -66,6 +73,7 @@ class CameraActivity final : public Activity {
   ar::BoardTracker tracker_;  ///< used by one picture at a time
   std::vector<ar::BoardTracker> other_trackers_;
   Settings settings_;
+  cv::Size size_;          ///< that pictures should have
   ar::PoseTrack tracked_;  ///< by another tracking system, where there is one
   bool tracked_before_ = false;
   ar::PictureHealth health_;

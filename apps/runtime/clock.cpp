@@ -31,10 +31,8 @@ void rest(std::chrono::nanoseconds time) noexcept {
 
 bool comesTrue(std::chrono::milliseconds most, const std::function<bool()>& question) {
   constexpr std::chrono::milliseconds kBetween{100};
-  for (auto left = most; left > kBetween; left -= kBetween) {
+  for (const auto last = ServingClock::now() + most; ServingClock::now() < last; rest(kBetween))
     if (question()) return true;
-    rest(kBetween);
-  }
   return question();
 }
 

@@ -55,7 +55,7 @@ struct ServingClock {
 /// The calling thread rests this long.
 void rest(std::chrono::nanoseconds time) noexcept;
 
-/// Asks ten times a second until the answer is yes, for `most` at most. The last answer.
+/// Asks ten times a second until the answer is yes, no longer than `most`. The last answer.
 bool comesTrue(std::chrono::milliseconds most, const std::function<bool()>& question);
 
 /// How long a program that was killed may hold its locks and its port: the system takes its memory

@@ -77,9 +77,9 @@ runtime::CameraActivity::Exposer timed(runtime::CameraActivity::Exposer exposer,
                                        SessionCost* cost) {
   if (!cost || !cost->by_stage) return exposer;
   return [exposer = std::move(exposer), cost](std::int64_t now_ns, std::uint64_t number) {
-    return [exposure = exposer(now_ns, number), cost] {
+    return [exposure = exposer(now_ns, number), cost](const cv::Rect& part) {
       const std::int64_t before_ns = os::threadsProcessorTime_ns();
-      std::optional<ar::Frame> frame = exposure();
+      std::optional<ar::Frame> frame = exposure(part);
       cost->drawing_ns += os::threadsProcessorTime_ns() - before_ns;
       return frame;
     };

@@ -35,7 +35,8 @@ SessionPictures::SessionPictures(const SessionOptions& options, const station::S
     : station_(station),
       file_(options.camera),
       camera_(station.camera),
-      rate_Hz_(station.camera_rate_Hz) {
+      rate_Hz_(station.camera_rate_Hz),
+      seen_(!options.no_views || options.record_video) {
   if (!file_.empty())
     source_ = ar::isVideoFile(file_) ? Source::film : Source::photographs;
   else if (station_.camera_setup.driver == station::CameraDriver::webcam)
@@ -98,6 +99,9 @@ runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mo
   settings.mode = mode;
   settings.photographs = photographs();
   if (model_) settings.finder = bench->finder(*model_);
+  settings.parts = mode == runtime::TimeMode::virtual_time && !seen_ && fromBench() &&
+                   station_.boards.empty() && !station_.tracker &&
+                   !station_.file.has("twin/camera_faults");
   if (file_.empty() && station_.tracker)
     settings.tracked = {station_.tracker->sigma, station_.tracker->sigma_rad,
                         station_.tracker->stale_s};
@@ -141,7 +145,7 @@ runtime::CameraActivity::Exposer SessionPictures::exposer(twin::VirtualBench* be
   if (model_) return {};
   if (fromBench()) return bench->exposer();
   return [this, &clock](std::int64_t now_ns, std::uint64_t number) {
-    return [this, &clock, now_ns, number]() { return take(now_ns, number, clock); };
+    return [this, &clock, now_ns, number](const cv::Rect&) { return take(now_ns, number, clock); };
   };
 }
 

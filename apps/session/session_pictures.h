@@ -58,6 +58,7 @@ class SessionPictures {
   calibration::CameraModel camera_;
   double rate_Hz_;
   std::optional<twin::TrackingFigures> model_;  ///< in place of the bench's pictures
+  const bool seen_;                             ///< by somebody besides the tracker
   std::unique_ptr<ar::Camera> pictures_;        ///< null: the bench's, or a webcam that is not open
   std::size_t photographs_ = 0;
   std::unique_ptr<ar::Board> board_;

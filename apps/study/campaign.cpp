@@ -91,10 +91,12 @@ void readPatients(const JsonFile& file, Campaign* campaign) {
   }
   if (!given) return;
   std::set<std::string> names;
+  for (const CampaignPatient& patient : campaign->patients) names.insert(patient.name);
   for (const fs::path& patient : filesNamed(file, "patient_files")) {
     campaign->patients.push_back({patient.stem().string(), 0, patient});
     if (!names.insert(campaign->patients.back().name).second)
-      file.refuse("patient_files", "has two files named \"" + *names.rbegin() + "\"");
+      file.refuse("patient_files",
+                  "has a second patient named \"" + patient.stem().string() + "\"");
   }
 }
 

@@ -62,8 +62,8 @@ Campaign readCampaign(const std::filesystem::path& file);
 /// The nth, 0 to `sessions()` - 1. Seeds change first, then settings, operators, patients, tasks.
 CampaignSession sessionOf(const Campaign& campaign, std::size_t n);
 
-/// "2 operators x 5 patients x 50 seeds x 2 settings = 1000 sessions of 1 trial": what is once is
-/// left out.
+/// "2 operators x 5 patients x 50 seeds x 2 settings = 1000 sessions of 1 trial each": what is once
+/// is left out.
 std::string sizeInWords(const Campaign& campaign);
 
 }  // namespace palpa::study

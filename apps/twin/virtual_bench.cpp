@@ -236,8 +236,12 @@ runtime::CameraActivity::Exposer VirtualBench::exposer() {
     for (const auto& [i, X_WB] :
          boardsAt(impl->station, impl->board_moves, 1e-9 * static_cast<double>(seen_ns)))
       plates.push_back({i, X_CW * X_WB});
-    return [impl, X_CW, plates, now_ns, number, fault, frozen]() -> std::optional<ar::Frame> {
-      ar::Frame frame{number, now_ns, impl->camera->render(X_CW, plates, frozen ? 0 : number),
+    return [impl, X_CW, plates, now_ns, number, fault,
+            frozen](const cv::Rect& part) -> std::optional<ar::Frame> {
+      const std::uint64_t seen = frozen ? 0 : number;
+      ar::Frame frame{number, now_ns,
+                      plates.empty() ? impl->camera->render(X_CW, seen, part)
+                                     : impl->camera->render(X_CW, plates, seen),
                       "virtual camera"};
       return fault ? spoilt(std::move(frame), *fault) : std::optional(std::move(frame));
     };

@@ -23,12 +23,14 @@ constexpr double kWallDepth = 1;      // metres
 void castRays(const CameraModel& camera, cv::Mat* x, cv::Mat* y) {
   x->create(camera.height, camera.width, CV_32F);
   y->create(camera.height, camera.width, CV_32F);
-  for (int v = 0; v < camera.height; ++v)
+  for (int v = 0; v < camera.height; ++v) {
+    Vec3 p = camera.unproject({0, double(v)});
     for (int u = 0; u < camera.width; ++u) {
-      const Vec3 p = camera.unproject({double(u), double(v)});
+      p = camera.unproject({double(u), double(v)}, p);
       x->at<float>(v, u) = float(p.x());
       y->at<float>(v, u) = float(p.y());
     }
+  }
 }
 
 /// A lamp at the upper left, and the lens's fall-off toward the corners: 0.72 to 1.05 of the light.
@@ -110,39 +112,55 @@ cv::Mat VirtualCamera::lookUp(const picture::GrayTexture& texture, const Mat3& r
   return seen;
 }
 
-cv::Mat VirtualCamera::background(const Pose& X_CW) const {
-  if (!wall_.empty()) return wall_.clone();
+cv::Mat VirtualCamera::background(const Pose& X_CW, const cv::Rect& region) const {
+  if (!wall_.empty()) return wall_(region).clone();
   const picture::RayToPlane table = picture::rayToPlane(X_CW);
   const Mat3 H = table.height > 0 ? table.H : Mat3(Mat3::Zero());
-  return lookUp(textures_.nearest(X_CW, truth_.fx), H, {0, 0, ray_x_.cols, ray_x_.rows});
+  return lookUp(textures_.nearest(X_CW, truth_.fx), H, region);
 }
 
-/// Light, then noise: each row of each frame reads the bank from its own place, one of two signs.
-void VirtualCamera::expose(std::uint64_t frame_number, cv::Mat* picture) const {
+/// Light, then noise, on this region: each row of each frame reads the bank from its own place, one
+/// of two signs.
+void VirtualCamera::expose(std::uint64_t frame_number, const cv::Rect& region,
+                           cv::Mat* picture) const {
   const std::uint64_t frame =
       picture::randomBits(picture::randomBits(seed_, kRowStream), frame_number);
-  const std::size_t width = std::size_t(picture->cols);
-  for (int v = 0; v < picture->rows; ++v) {
+  const std::size_t width = std::size_t(truth_.width);
+  for (int v = region.y; v < region.br().y; ++v) {
     const std::uint64_t draw = picture::randomBits(frame, std::uint64_t(v));
     const std::int16_t* noise = noise_.data() + (draw >> 8) % (kBank - width);
     const int sign = (draw & 1U) ? 1 : -1;
-    exposeRow(gain_.ptr<std::uint16_t>(v), noise, sign, width, picture->ptr<unsigned char>(v));
+    exposeRow(gain_.ptr<std::uint16_t>(v) + region.x, noise + region.x, sign,
+              std::size_t(region.width), picture->ptr<unsigned char>(v) + region.x);
   }
 }
 
-/// What lens and sensor make of a perfect picture.
-void VirtualCamera::take(std::uint64_t frame_number, cv::Mat* picture) const {
-  if (settings_.blur_sigma_px > 0) {
-    cv::Mat sharp = *picture;  // of its own: in place the blur would copy it
-    *picture = cv::Mat();
-    cv::GaussianBlur(sharp, *picture, {0, 0}, settings_.blur_sigma_px);
-  }
-  expose(frame_number, picture);
+void VirtualCamera::blur(cv::Mat* picture) const {
+  if (settings_.blur_sigma_px <= 0) return;
+  cv::Mat sharp = *picture;  // of its own: in place the blur would copy it
+  *picture = cv::Mat();
+  cv::GaussianBlur(sharp, *picture, {0, 0}, settings_.blur_sigma_px);
 }
 
 cv::Mat VirtualCamera::render(const Pose& X_CW_true, std::uint64_t frame_number) const {
-  cv::Mat picture = background(X_CW_true);
-  take(frame_number, &picture);
+  return render(X_CW_true, frame_number, whole());
+}
+
+cv::Mat VirtualCamera::render(const Pose& X_CW_true, std::uint64_t frame_number,
+                              const cv::Rect& part) const {
+  const cv::Rect looked_at = part & whole(), region = looked_at.empty() ? whole() : looked_at;
+  const int reach = int(std::ceil(4 * settings_.blur_sigma_px)) + 1;  // of the blur, on either side
+  const cv::Rect drawn =
+      cv::Rect(region.tl() - cv::Point(reach, reach), region.br() + cv::Point(reach, reach)) &
+      whole();
+  cv::Mat seen = background(X_CW_true, drawn);
+  blur(&seen);
+  cv::Mat picture = seen;
+  if (region != whole()) {
+    picture = cv::Mat(whole().size(), CV_8U, cv::Scalar(0));
+    seen(region - drawn.tl()).copyTo(picture(region));
+  }
+  expose(frame_number, region, &picture);
   return picture;
 }
 

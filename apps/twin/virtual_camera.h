@@ -62,6 +62,8 @@ class VirtualCamera {
   /// `X_CW_true`: pose of the board in the camera. A camera below the table sees nothing but its
   /// tone. Before a wall the pose means nothing.
   cv::Mat render(const Pose& X_CW_true, std::uint64_t frame_number) const;
+  /// The same picture where only `part` of it will be looked at (empty: all): the rest is black.
+  cv::Mat render(const Pose& X_CW_true, std::uint64_t frame_number, const cv::Rect& part) const;
 
   /// With plates before, over or under the table; those not named are out of sight. In each pixel
   /// the nearest of all planes wins, and the one named first of equally near ones; a plate that
@@ -83,9 +85,10 @@ class VirtualCamera {
 
   cv::Mat lookUp(const picture::GrayTexture& texture, const Mat3& ray_to_plane,
                  const cv::Rect& region) const;
-  cv::Mat background(const Pose& X_CW) const;
-  void expose(std::uint64_t frame_number, cv::Mat* picture) const;
-  void take(std::uint64_t frame_number, cv::Mat* picture) const;
+  cv::Rect whole() const { return {0, 0, truth_.width, truth_.height}; }
+  cv::Mat background(const Pose& X_CW, const cv::Rect& region) const;
+  void blur(cv::Mat* picture) const;
+  void expose(std::uint64_t frame_number, const cv::Rect& region, cv::Mat* picture) const;
   cv::Rect regionOf(const Plate& plate, const Pose& X_CB) const;
   Layer layerOf(const PlatePose& placed) const;
   void compose(const std::vector<Layer>& layers, const Vec3& table_nearness,

@@ -164,11 +164,12 @@ cv::Mat VirtualCamera::render(const Pose& X_CW_true, std::span<const PlatePose> 
                        "virtual camera", "Name the plates of its scene.");
     layers.push_back(layerOf(placed));
   }
-  cv::Mat picture = background(X_CW_true);
+  cv::Mat picture = background(X_CW_true, whole());
   Vec3 table = Vec3::Zero();  // infinitely far
   if (wall_.empty()) table = nearnessOf(picture::rayToPlane(X_CW_true));
   compose(layers, table, &picture);
-  take(frame_number, &picture);
+  blur(&picture);
+  expose(frame_number, whole(), &picture);
   return picture;
 }
 

@@ -102,17 +102,22 @@ void BoardTracker::learn(const std::vector<BoardPoint>& points, const BoardPose&
 }
 
 std::optional<BoardPose> BoardTracker::see(const cv::Mat& image, std::int64_t t_ns) {
+  return see([&image](const cv::Rect&) { return image; }, image.size(), t_ns);
+}
+
+std::optional<BoardPose> BoardTracker::see(const Picture& picture, const cv::Size& size,
+                                           std::int64_t t_ns) {
   if (!settings_.motion) track_.forget();
-  region_ = expected(image.size(), t_ns);
+  region_ = expected(size, t_ns);
   std::vector<BoardPoint> points;
   std::optional<BoardPose> pose;
   if (!region_.empty()) {
-    points = board_.detect(image(region_));
+    points = board_.detect(picture(region_)(region_));
     for (BoardPoint& point : points) point.pixel += Eigen::Vector2d(region_.x, region_.y);
     pose = believable(points, t_ns);
   }
   if (!pose) {
-    points = board_.detect(image);
+    points = board_.detect(picture({}));
     pose = believable(points, t_ns);
   }
   return conclude(points, std::move(pose), t_ns);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -35,6 +36,10 @@ class BoardTracker {
   /// Pose of the board in the picture exposed at `t_ns`, as it was measured there; nothing where it
   /// is not seen.
   std::optional<BoardPose> see(const cv::Mat& image, std::int64_t t_ns);
+  /// The whole of a picture, of which at least this part is drawn; an empty part: all of it.
+  using Picture = std::function<cv::Mat(const cv::Rect& part)>;
+  /// The same, where each part of a picture costs: only what is looked at is asked for.
+  std::optional<BoardPose> see(const Picture& picture, const cv::Size& size, std::int64_t t_ns);
   /// The same with the points that were found in that picture.
   std::optional<BoardPose> take(const std::vector<BoardPoint>& points, std::int64_t t_ns);
 

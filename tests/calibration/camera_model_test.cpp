@@ -67,6 +67,18 @@ TEST_P(EveryCamera, UnprojectInvertsProjectAllOverThePicture) {
     }
 }
 
+TEST_P(EveryCamera, ARayIsTheSameFoundFromThatBesideIt) {
+  const CameraModel& camera = GetParam();
+  for (int v = 0; v < camera.height; v += 40) {
+    Vec3 ray = camera.unproject({0, double(v)});
+    for (int u = 1; u < camera.width; ++u) {
+      ray = camera.unproject({double(u), double(v)}, ray);
+      EXPECT_LT((camera.project(ray) - Vec2(u, v)).norm(), 1e-10) << u << ' ' << v;
+    }
+    EXPECT_LT((ray - camera.unproject({camera.width - 1.0, double(v)})).norm(), 1e-13) << v;
+  }
+}
+
 TEST_P(EveryCamera, IsAccepted) { EXPECT_NO_THROW(validate(GetParam(), "test")); }
 
 TEST(CameraModel, DistanceDoesNotMatter) {

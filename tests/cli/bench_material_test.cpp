@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "program.h"
 #include "tests/support/counts.h"
@@ -17,12 +16,10 @@ using Lines = std::vector<nlohmann::json>;
 /// Those without noise, and what hands do, which is with noise always.
 Lines judgedLines(const Outcome& outcome) {
   Lines lines;
-  std::istringstream text(outcome.out);
-  for (std::string line; std::getline(text, line);) {
-    lines.push_back(nlohmann::json::parse(line));
-    EXPECT_EQ(lines.back()["params"]["data"], "simulated");
-    if (lines.back()["params"]["noise"] != "none" && !lines.back()["params"].contains("hands"))
-      lines.pop_back();
+  for (const nlohmann::json& line : jsonLines(outcome)) {
+    EXPECT_EQ(line["params"]["data"], "simulated");
+    if (line["params"]["noise"] == "none" || line["params"].contains("hands"))
+      lines.push_back(line);
   }
   return lines;
 }

@@ -3,7 +3,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "program.h"
 
@@ -16,9 +15,7 @@ TEST(BenchStop, MeasuresEverySourceWithEveryHungPart) {
   const Outcome outcome = palpa({"bench", "stop", "--presses", "2"}, here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::set<std::string> metrics;
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto metric = nlohmann::json::parse(line);
+  for (const nlohmann::json& metric : jsonLines(outcome)) {
     metrics.insert(metric["metric"]);
     EXPECT_EQ(metric["unit"], "ms");
     EXPECT_EQ(metric["params"]["presses"], 2);
@@ -38,10 +35,9 @@ TEST(BenchSession, SaysHowSoonAndHowFastAndWhatEveryStageTakes) {
   std::multiset<std::string> metrics;
   std::map<std::string, std::set<std::string>> stages;
   std::map<std::string, double> shares;
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto metric = nlohmann::json::parse(line);
-    EXPECT_GT(metric["value"], 0) << line;
+  for (const nlohmann::json& metric : jsonLines(outcome)) {
+    EXPECT_GT(metric["value"], 0) << metric;
+    EXPECT_EQ(metric["params"]["data"], "simulated");
     const std::string tracking = metric["params"]["tracking"];
     if (metric["metric"] == "stage_share") {
       shares[tracking] += metric["value"].get<double>();
@@ -61,6 +57,23 @@ TEST(BenchSession, SaysHowSoonAndHowFastAndWhatEveryStageTakes) {
   EXPECT_EQ(stages["model"], both);
   both.insert({"drawing", "tracking"});
   EXPECT_EQ(stages["images"], both);
+}
+
+TEST(BenchRecords, MeasuresPageAndExportOfDrawnTrials) {
+  const Folder here;
+  const Outcome outcome = palpa({"bench", "records", "--trials", "100"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::multiset<std::string> metrics;
+  for (const nlohmann::json& metric : jsonLines(outcome)) {
+    EXPECT_GT(metric["value"], 0) << metric;
+    EXPECT_EQ(metric["params"]["data"], "simulated");
+    EXPECT_EQ(metric["params"]["store"], "sqlite");
+    EXPECT_EQ(metric["params"]["trials"], 100);
+    metrics.insert(metric["metric"]);
+  }
+  const std::multiset<std::string> expected{"cohort_peak_mb", "cohort_seconds", "export_peak_mb",
+                                            "export_seconds"};
+  EXPECT_EQ(metrics, expected);
 }
 
 }  // namespace

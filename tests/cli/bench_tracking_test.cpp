@@ -3,7 +3,6 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "program.h"
 #include "tests/support/counts.h"
@@ -21,9 +20,7 @@ TEST(BenchTracking, HoldsWhatIsPromised) {
   const Outcome outcome = palpa(arguments, here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::map<std::string, double> value;
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto metric = nlohmann::json::parse(line);
+  for (const nlohmann::json& metric : jsonLines(outcome)) {
     value[metric["metric"]] = metric["value"];
     EXPECT_EQ(metric["params"]["data"], "simulated");
     EXPECT_TRUE(metric["params"].contains("resolution"));

@@ -58,7 +58,7 @@ TEST(Campaign, PrintsCommandsThatAShellReads) {
   ASSERT_EQ(script.exit_code, 0) << script.err;
   EXPECT_EQ(script.out.find("#!/bin/sh\n"), 0u);
   EXPECT_TRUE(says(script.out, "\n#SBATCH --array=1-5\n")) << script.out;
-  EXPECT_TRUE(says(script.out, "--part \"$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT\""));
+  EXPECT_TRUE(says(script.out, "--part \"$SLURM_ARRAY_TASK_ID/5\""));
 }
 
 TEST(Campaign, RefusesWhatMakesNoSense) {
@@ -70,6 +70,7 @@ TEST(Campaign, RefusesWhatMakesNoSense) {
       {{"--status", "--collect"}, "do not go together"},
       {{"--records", "r.sqlite", "--keep", "table"}, "need the evidence"},
       {{"--records", "r.sqlite", "--part", "1/2"}, "are for the whole"},
+      {{"--records", "mysql://a/b"}, "mysql"},
       {{"--keep", "all"}, "--keep needs"}};
   for (const auto& [words, said] : cases) {
     std::vector<std::string> all{"campaign", file};

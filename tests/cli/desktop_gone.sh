@@ -66,7 +66,7 @@ stopped() {   # from the tick that carries the stop on there is no force
 window() { xdotool search --onlyvisible --name '^Palpa$' | head -n 1; }
 
 one_round() {   # NUMBER: a session of each kind
-  number=$1 place=$work/$1 server=0 program=0
+  number=$1 place=$work/$1 server= program=
   mkdir "$place"
   trap 'kill -KILL $server $program 2>/dev/null; rm -rf "$place"' EXIT
   export HOME=$place XDG_STATE_HOME=$place/state XDG_DATA_HOME=$place/data

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 namespace palpa::cli_test {
@@ -93,6 +94,13 @@ pid_t start(const std::vector<std::string>& arguments, const fs::path& folder, c
 int Outcome::errLines() const {
   const auto ends = std::count(err.begin(), err.end(), '\n');
   return static_cast<int>(ends) + (!err.empty() && err.back() != '\n');
+}
+
+std::vector<nlohmann::json> jsonLines(const Outcome& outcome) {
+  std::vector<nlohmann::json> lines;
+  std::istringstream text(outcome.out);
+  for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
+  return lines;
 }
 
 Running::Running(const std::vector<std::string>& arguments, const fs::path& folder,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@ struct Outcome {
 
 /// Runs the built `palpa` with these arguments, in `folder`, without a display; waits for its end.
 Outcome palpa(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
+/// What a command printed, one JSON object a line.
+std::vector<nlohmann::json> jsonLines(const Outcome& outcome);
 
 /// Names and values.
 using Environment = std::vector<std::pair<std::string, std::string>>;

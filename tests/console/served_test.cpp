@@ -32,12 +32,7 @@ using namespace std::chrono_literals;
 
 template <class Seen>
 bool inTime(Seen seen) {
-  const auto until = runtime::ServingClock::now() + 60s;
-  while (runtime::ServingClock::now() < until) {
-    if (seen()) return true;
-    runtime::rest(20ms);
-  }
-  return false;
+  return runtime::comesTrue(60s, seen);
 }
 
 class Served {

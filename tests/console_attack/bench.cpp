@@ -39,14 +39,7 @@ using namespace std::chrono_literals;
 
 }  // namespace
 
-bool inTime(const std::function<bool()>& seen) {
-  const auto until = runtime::ServingClock::now() + 120s;
-  while (runtime::ServingClock::now() < until) {
-    if (seen()) return true;
-    runtime::rest(20ms);
-  }
-  return false;
-}
+bool inTime(const std::function<bool()>& seen) { return runtime::comesTrue(120s, seen); }
 
 std::string contentOf(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

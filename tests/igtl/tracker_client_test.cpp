@@ -279,7 +279,7 @@ TEST(IgtlTrackedCamera, PoseIsTakenAtTheExposureAndGoesStale) {
   runtime::CameraActivity activity(
       bus,
       [](std::int64_t now, std::uint64_t number) -> runtime::CameraActivity::Exposure {
-        return [=]() -> std::optional<ar::Frame> {
+        return [=](const cv::Rect&) -> std::optional<ar::Frame> {
           ar::Frame frame;
           frame.t_exposure_ns = now;
           frame.image =

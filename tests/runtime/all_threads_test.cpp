@@ -98,7 +98,7 @@ TEST(AllThreads, RunTogetherAndTheHapticOneNeverAllocates) {
   CameraActivity camera(
       bus,
       [](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure {
-        return [=]() -> std::optional<ar::Frame> {
+        return [=](const cv::Rect&) -> std::optional<ar::Frame> {
           return ar::Frame{number, now, cv::Mat(64, 64, CV_8UC1, cv::Scalar(9)), "dark"};
         };
       },

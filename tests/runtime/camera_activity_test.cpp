@@ -51,7 +51,7 @@ std::vector<Seen> run(bool slow) {
   const auto board = ar::makeBoard("tags:2x2:0.030:0.0075");
   const calibration::CameraModel camera{64, 64, 60, 60, 31.5, 31.5, {}, 0};
   const auto expose = [slow](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure {
-    return [=]() -> std::optional<ar::Frame> {
+    return [=](const cv::Rect&) -> std::optional<ar::Frame> {
       if (slow) waitUntil(now + kLatency - kMillisecond);
       if (number == kPictures) return std::nullopt;
       return blank(now, number);
@@ -99,7 +99,7 @@ TEST(CameraActivity, PictureWithoutABoardHasNoPoseAndOneWithItHas) {
                                         drawn.cols / 2.0, drawn.rows / 2.0, {},  0};
   bool with_board = false;
   const auto expose = [&](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure {
-    return [&, now, number]() -> std::optional<ar::Frame> {
+    return [&, now, number](const cv::Rect&) -> std::optional<ar::Frame> {
       ar::Frame frame = blank(now, number);
       if (with_board) frame.image = drawn;
       return frame;
@@ -122,6 +122,69 @@ TEST(CameraActivity, PictureWithoutABoardHasNoPoseAndOneWithItHas) {
   EXPECT_EQ(observed, 2);
 }
 
+/// A board that is pushed slowly, and far away after picture 6.
+cv::Mat pushed(const cv::Mat& sheet, std::uint64_t number) {
+  cv::Mat picture(480, 640, CV_8UC1, cv::Scalar(105));
+  const int left = static_cast<int>((number > 6 ? 350 : 60) + 2 * number);
+  sheet.copyTo(picture(cv::Rect({left, 120}, sheet.size())));
+  return picture;
+}
+
+struct Followed {
+  std::vector<std::optional<Pose>> poses;
+  std::vector<std::vector<cv::Rect>> asked;  ///< of each picture
+};
+
+/// Nothing but the part that is asked for is in a picture.
+Followed follow(bool parts) {
+  constexpr std::uint64_t kCount = 10;
+  Bus bus(TimeMode::virtual_time);
+  const ar::TagGridSpec spec{3, 2, 0.030, 0.0075, 0};
+  const auto board = ar::makeBoard(spec, 1.0);
+  const cv::Mat sheet = ar::drawTagGrid(spec, 1500);
+  Followed followed;
+  const auto expose = [&](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure {
+    followed.asked.emplace_back();
+    return [&, now, number](const cv::Rect& part) -> std::optional<ar::Frame> {
+      followed.asked.back().push_back(part);
+      ar::Frame frame = blank(now, number);
+      frame.image = pushed(sheet, number);
+      if (part.empty()) return frame;
+      cv::Mat rest(frame.image.size(), CV_8UC1, cv::Scalar(255));
+      rest(part).setTo(0);
+      frame.image.setTo(0, rest);
+      return frame;
+    };
+  };
+  CameraActivity::Settings settings{kPeriod, kLatency, TimeMode::virtual_time};
+  settings.parts = parts;
+  CameraActivity activity(bus, expose, *board, {640, 480, 500, 500, 319.5, 239.5, {}, 0}, settings);
+  for (std::uint64_t i = 0; i < kCount; ++i) {
+    const std::int64_t shown = activity.step(static_cast<std::int64_t>(i) * kPeriod);
+    activity.step(shown);
+    const CameraView* view = bus.camera_to_task.read(shown);
+    EXPECT_EQ(view->number, i);
+    EXPECT_EQ(view->picture == nullptr, parts);
+    followed.poses.push_back(view->pose ? std::optional(view->pose->X_CW) : std::nullopt);
+  }
+  return followed;
+}
+
+TEST(CameraActivity, InPartsItFindsWhatItFindsInTheWhole) {
+  const Followed whole = follow(false), parts = follow(true);
+  for (std::size_t i = 0; i < whole.poses.size(); ++i) {
+    ASSERT_EQ(parts.poses[i].has_value(), whole.poses[i].has_value()) << i;
+    if (whole.poses[i]) {
+      EXPECT_EQ(parts.poses[i]->matrix(), whole.poses[i]->matrix()) << i;
+    }
+    const std::vector<cv::Rect>& asked = parts.asked[i];
+    const bool elsewhere = i == 7 || i == 8;  // a jump is believed when it is seen twice
+    ASSERT_EQ(asked.size(), elsewhere ? 2u : 1u) << i;
+    EXPECT_EQ(asked.back().empty(), elsewhere || i == 0) << i;
+  }
+  EXPECT_TRUE(parts.poses[6] && !parts.poses[7] && parts.poses[8]);
+}
+
 /// What a source does to the pictures; what is told of it; and that it goes on.
 struct Told {
   std::vector<ar::PictureFault> faults;
@@ -132,12 +195,12 @@ Told tellOf(const std::function<std::optional<ar::Frame>(std::int64_t, std::uint
             int steps) {
   Bus bus(TimeMode::real);
   const auto board = ar::makeBoard("tags:2x2:0.030:0.0075");
-  CameraActivity activity(bus,
-                          [&](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure {
-                            return [&source, now, number] { return source(now, number); };
-                          },
-                          *board, {64, 64, 60, 60, 31.5, 31.5, {}, 0},
-                          {kPeriod, kLatency, TimeMode::real});
+  CameraActivity activity(
+      bus,
+      [&](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure {
+        return [&source, now, number](const cv::Rect&) { return source(now, number); };
+      },
+      *board, {64, 64, 60, 60, 31.5, 31.5, {}, 0}, {kPeriod, kLatency, TimeMode::real});
   Told told;
   std::int64_t now = 0;
   for (int i = 0; i < steps && now != kNever; ++i) {

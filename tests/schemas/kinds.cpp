@@ -358,7 +358,7 @@ std::vector<Kind> studyKinds() {
 
 Kind campaignKind() {
   const json other_patient{
-      "../patients/reference.json"};  // what it holds is the session's question
+      "../patients/bodyparts3d_hra.json"};  // what it holds is the session's question
   const auto session_of = [](const char* task, const json& setting) {
     return json{{"tasks", {std::string("../tasks/") + task}},
                 {"patients", nullptr},

@@ -90,7 +90,8 @@ TEST(Campaign, NamesItsPatientsAndReadsItsSettings) {
 
 TEST(Campaign, RefusesWhatItCannotHold) {
   const std::string palpation = (kAssets / "tasks/palpation_breast.json").string(),
-                    needle = (kAssets / "tasks/paracentesis.json").string();
+                    needle = (kAssets / "tasks/paracentesis.json").string(),
+                    reference = (kAssets / "patients/reference.json").string();
   const std::pair<json, const char*> cases[]{
       {{{"tasks", {needle, palpation}}}, "are of different engines: needle and palpation"},
       {{{"tasks", {needle, needle}}}, "has two files named \"paracentesis\""},
@@ -104,7 +105,9 @@ TEST(Campaign, RefusesWhatItCannotHold) {
       {{{"settings", {{{"name", "a"}}, {{"name", "a"}}}}}, "is another setting's, too"},
       {{{"settings", {{{"name", "a"}, {"side", "both"}}}}}, "must be left or right"},
       {{{"settings", {{{"name", "a"}, {"tracking", "film"}}}}}, "must be images or model"},
-      {{{"patient_files", {needle, needle}}}, "has two files named \"paracentesis\""},
+      {{{"patient_files", {needle, needle}}}, "has a second patient named \"paracentesis\""},
+      {{{"patients", {{"from", 0}, {"count", 1}}}, {"patient_files", {reference}}},
+       "has a second patient named \"reference\""},
       {{{"seeds", {{"form", 1}}}}, "did you mean \"from\"?"}};
   EXPECT_EQ(faultWith(json::object()), "");
   EXPECT_EQ(faultWith({{"seeds", {{"count", 8333}}}}), "") << "99,996 sessions";

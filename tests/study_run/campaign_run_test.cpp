@@ -1,5 +1,7 @@
 #include <signal.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <map>
 #include <set>
 
@@ -135,6 +137,43 @@ TEST_F(SmallCampaign, WithoutHopeStopsEarly) {
   const Ran all = ran(options(put("campaign.json", campaign), "out"), here_ / "out.txt");
   EXPECT_TRUE(says(all.failure, "30 of 30 sessions missing, 10 failed")) << all.failure;
   EXPECT_TRUE(says(all.printed, "clumsy.json")) << all.printed;
+}
+
+/// Files of this process and of those that it starts, while it lives.
+class NoRoom {
+ public:
+  explicit NoRoom(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit little{bytes, before_.rlim_max};
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &little);
+  }
+  ~NoRoom() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST_F(SmallCampaign, WithoutRoomKeepsOfFailedSessionsWhatTheyPrinted_AndGoesOnWhenThereIsSome) {
+  const fs::path file = comparisons(1);
+  {
+    const NoRoom here(200'000);
+    const Ran none = ran(options(file, "out"), here_ / "none.txt");
+    EXPECT_TRUE(says(none.failure, "4 of 4 sessions missing, 4 failed")) << none.failure;
+  }
+  std::size_t printed = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(here_ / "out/work")) {
+    if (!entry.is_regular_file() || entry.path().extension() == ".lock") continue;
+    EXPECT_EQ(entry.path().filename(), "output.txt");
+    ++printed;
+  }
+  EXPECT_EQ(printed, 4u);
+  EXPECT_EQ(ran(options(file, "out"), here_ / "some.txt").computed(), 4);
+  EXPECT_TRUE(fs::is_empty(here_ / "out/work"));
 }
 
 std::size_t trialsIn(const fs::path& records) {

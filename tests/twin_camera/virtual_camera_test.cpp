@@ -36,6 +36,25 @@ TEST(VirtualCamera, IsAFunctionOfSeedFrameAndPoseAlone) {
   EXPECT_FALSE(same(VirtualCamera(benchLens(), {}, {}, 8).render(X, 5), picture));
 }
 
+TEST(VirtualCamera, APartIsThatOfTheWholePicture) {
+  const cv::Rect parts[] = {{100, 80, 200, 160}, {0, 0, 33, 48}, {600, 400, 40, 80},
+                            {-20, 200, 90, 11},  {7, 470, 1, 1}, {0, 0, 640, 480}};
+  for (const double blur : {0.0, 0.6, 2.3}) {
+    VirtualCameraSettings settings;
+    settings.blur_sigma_px = blur;
+    const VirtualCamera camera(benchLens(), {}, settings, 7);
+    const cv::Mat whole = camera.render(benchView(1, 0.5), 5);
+    for (const cv::Rect& part : parts) {
+      const cv::Rect inside = part & cv::Rect(0, 0, 640, 480);
+      cv::Mat seen = camera.render(benchView(1, 0.5), 5, part);
+      EXPECT_TRUE(same(seen(inside), whole(inside))) << part << ", blur " << blur;
+      seen(inside).setTo(0);
+      EXPECT_EQ(cv::countNonZero(seen), 0) << part;
+    }
+    EXPECT_TRUE(same(camera.render(benchView(1, 0.5), 5, {}), whole));
+  }
+}
+
 TEST(VirtualCamera, NoiseHasTheStatedSizeAndIsFreshInEveryFrameAndRow) {
   const Pose X = benchView(3, 0.5);
   const VirtualCamera clean(benchLens(), {}, {0.6, 0, 0, 1}, 7);

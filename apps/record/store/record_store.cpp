@@ -223,6 +223,7 @@ std::vector<StoredSession> RecordStore::sessionsOf(const std::string& trainee) {
 }
 
 std::optional<StoredSession> RecordStore::session(const std::string& uuid) {
+  if (uuid.empty()) return std::nullopt;  // a filter without one is for all
   SqlTransaction moment(*connection_, Access::read);
   std::optional<StoredSession> found;
   record::eachSession(*connection_, {.session = uuid},

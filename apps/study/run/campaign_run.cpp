@@ -55,6 +55,23 @@ void putInPlace(const fs::path& work, const fs::path& result) {
   fs::remove_all(less);
 }
 
+/// Of a session that failed: what it had recorded would fill the disk with what nobody reads.
+void keepOnlyWhatWasPrinted(const fs::path& folder) {
+  for (const fs::path& file : entriesOf(folder))
+    if (file.filename() != kPrinted) fs::remove_all(file);
+}
+
+/// In this folder; whether it went to its end.
+bool holdSessionIn(const fs::path& work, const PlannedCampaign& plan, std::size_t n) try {
+  session::SessionOptions options = sessionOptions(plan.campaign, n, plan.keys[n]);
+  options.out = work.string();
+  options.report = plan.options.keeps == CampaignKeeps::reports;
+  return !session::holdSession(plan.campaign.engine, options).quit;
+} catch (...) {
+  keepOnlyWhatWasPrinted(work);
+  throw;
+}
+
 /// In a process of its own: holds a session that nobody else holds.
 void holdOne(const PlannedCampaign& plan, std::size_t n, const os::Report& report) {
   const fs::path work = plan.work(n), lock_file = lockOf(work);
@@ -68,10 +85,7 @@ void holdOne(const PlannedCampaign& plan, std::size_t n, const os::Report& repor
   if (const std::error_code problem = os::makeFolders(work))
     failFile("cannot be made", work, problem);
   os::sendOutputTo(work / kPrinted);
-  session::SessionOptions options = sessionOptions(plan.campaign, n, plan.keys[n]);
-  options.out = work.string();
-  options.report = plan.options.keeps == CampaignKeeps::reports;
-  if (session::holdSession(plan.campaign.engine, options).quit) return report(kLeft);
+  if (!holdSessionIn(work, plan, n)) return report(kLeft);
   removeRest(work, plan.options.keeps);
   putInPlace(work, plan.result(n));
   fs::remove(lock_file);
@@ -105,7 +119,7 @@ void checkBeforehand(const PlannedCampaign& plan) {
 void makeFoldersOf(const PlannedCampaign& plan) {
   for (const fs::path& folder : {plan.out, plan.out / "results", plan.out / "work"})
     session::makeOutputFolder(folder.string(), "");
-  const fs::path probe = plan.out / "work" / (newUuid() + ".lock");
+  const fs::path probe = plan.out / "work" / (newUuid() + ".probe");
   const auto lock = os::FileLock::exclusive(probe, os::FileLock::Missing::is_made);
   fs::remove(probe);
   if (!lock)
@@ -133,7 +147,7 @@ class Run {
 
   void goThrough() {
     session::WorkProgress progress("sessions", static_cast<int>(of_), plan_.options.quiet);
-    for (bool asked = false; !pool_.isIdle() || mayBegin();) {
+    for (bool asked = false; !pool_.isIdle() || mayBegin() || mayLookAgain();) {
       progress.done(static_cast<int>(done_));
       begin();
       for (const os::WorkerNews& news : pool_.await(kCampaignLook_ns)) learn(news);
@@ -166,18 +180,26 @@ class Run {
   bool wasInterrupted() const { return interrupt_.noted(); }
 
  private:
-  bool mayBegin() const {
-    return !waiting_.empty() && !interrupt_.noted() &&
-           (computed_ > 0 || failures_.size() < kHopeless);
+  bool mayGoOn() const {
+    return !interrupt_.noted() && (computed_ > 0 || failures_.size() < kHopeless);
+  }
+  bool mayBegin() const { return !waiting_.empty() && mayGoOn(); }
+  bool mayLookAgain() const { return !aside_.empty() && mayGoOn(); }
+
+  /// Those that another runner computed a look ago may be free now.
+  void lookAgain() {
+    if (!aside_.empty() && pool_.isIdle() && waiting_.empty())  // others compute all of it
+      runtime::rest(std::chrono::nanoseconds(kCampaignLook_ns));
+    const auto now = runtime::ServingClock::now();
+    for (; !aside_.empty() && aside_.front().second <= now; aside_.pop_front())
+      waiting_.push_back(aside_.front().first);
   }
 
   void begin() {
-    if (!busy_.empty() && pool_.isIdle() && busy_.size() == waiting_.size())
-      runtime::rest(std::chrono::nanoseconds(kCampaignLook_ns));  // others compute all of it
+    lookAgain();
     while (mayBegin() && !pool_.isFull()) {
       const std::size_t n = waiting_.front();
       waiting_.pop_front();
-      busy_.erase(n);
       if (plan_.isDone(n))
         ++done_;
       else
@@ -191,8 +213,8 @@ class Run {
     const std::string said = said_[news.item];
     said_.erase(news.item);
     if (said == kBusy) {
-      busy_.insert(news.item);
-      waiting_.push_back(news.item);
+      aside_.emplace_back(
+          news.item, runtime::ServingClock::now() + std::chrono::nanoseconds(kCampaignLook_ns));
     } else if (!news.failure.empty() || said == kLeft) {
       if (!interrupt_.noted())
         failures_.emplace_back(news.item, news.failure.empty() ? kLeft : news.failure);
@@ -206,7 +228,8 @@ class Run {
   os::WorkerPool pool_;
   const os::InterruptNote interrupt_;
   std::deque<std::size_t> waiting_;
-  std::set<std::size_t> busy_;               ///< of these: another runner computes them
+  /// another runner computes them; and when to ask again
+  std::deque<std::pair<std::size_t, runtime::ServingClock::time_point>> aside_;
   std::map<std::size_t, std::string> said_;  ///< by those that run
   std::vector<std::pair<std::size_t, std::string>> failures_;
   std::size_t of_ = 0, done_ = 0, computed_ = 0;
@@ -242,8 +265,9 @@ std::string PlannedCampaign::nameOf(std::size_t n) const {
 void runCampaign(const CampaignOptions& options) {
   const PlannedCampaign plan(options);
   checkBeforehand(plan);
+  if (options.parts == 1) prepareRecords(plan);
+  removeLeftovers(plan.out / "work");  // first: it makes room where the disk is full
   makeFoldersOf(plan);
-  removeLeftovers(plan.out / "work");
   std::printf("%s: %s\n", plan.campaign.title.c_str(), sizeInWords(plan.campaign).c_str());
   Run run(plan);
   run.goThrough();

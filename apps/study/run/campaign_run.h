@@ -65,7 +65,10 @@ session::SessionOptions sessionOptions(const Campaign& campaign, std::size_t ses
 
 /// Of what is there: every trial to out/trials.csv; how many results are missing.
 std::size_t collectTable(const PlannedCampaign& plan);
-/// The records get what they lack.
+/// Opens the records and names the simulated people, so that what is wrong with them is told before
+/// anything is computed. Nothing where there are none to fill.
+void prepareRecords(const PlannedCampaign& plan);
+/// The records, prepared before, get what they lack.
 void deliverCampaign(const PlannedCampaign& plan);
 
 /// Computes what is missing of its part, a process a session. Where it was all, the table is

@@ -36,18 +36,22 @@ struct SessionTable {
 
 SessionTable tableOf(const fs::path& result) {
   const fs::path file = result / "trials.csv";
+  const auto damaged = [&file] {
+    return Error("is damaged", file.string(), "Remove its folder; the next run computes it again");
+  };
   const std::string text = readWhole(file).value_or("");
   SessionTable table;
   CsvReader reader(text, file.string());
   CsvReader::Line line;
-  const auto damaged = [&file] {
-    return Error("is damaged", file.string(), "Remove its folder; the next run computes it again");
-  };
-  if (!reader.next(line)) throw damaged();
-  table.header = line.fields;
-  while (reader.next(line)) {
-    if (line.fields.size() != table.header.size()) throw damaged();
-    table.rows.push_back(line.fields);
+  try {
+    if (!reader.next(line)) throw damaged();
+    table.header = line.fields;
+    while (reader.next(line)) {
+      if (line.fields.size() != table.header.size()) throw damaged();
+      table.rows.push_back(line.fields);
+    }
+  } catch (const UsageError&) {  // nobody wrote this file by hand
+    throw damaged();
   }
   return table;
 }
@@ -115,12 +119,17 @@ std::size_t collectTable(const PlannedCampaign& plan) {
   return there.size() - sessions;
 }
 
+void prepareRecords(const PlannedCampaign& plan) {
+  if (plan.options.records.empty()) return;
+  record::RecordStore store(evidence::absoluteRecords(plan.options.records));
+  for (const CampaignOperator& who : plan.campaign.operators)
+    addSimulated(store, "SIM-" + who.name, "simulated", runtime::utcNow());
+}
+
 void deliverCampaign(const PlannedCampaign& plan) {
   if (plan.options.records.empty()) return;
   const std::string url = evidence::absoluteRecords(plan.options.records);
   record::RecordStore store(url);
-  for (const CampaignOperator& who : plan.campaign.operators)
-    addSimulated(store, "SIM-" + who.name, "simulated", runtime::utcNow());
   session::WorkProgress progress("sessions in the records", static_cast<int>(plan.keys.size()),
                                  plan.options.quiet);
   int added = 0, present = 0;
@@ -144,6 +153,7 @@ void collectCampaign(const CampaignOptions& options) {
   if (!fs::exists(plan.out / "results"))
     throw UsageError("holds no results of a campaign", plan.out.string(),
                      "Run it first: palpa campaign " + options.file);
+  prepareRecords(plan);
   if (const std::size_t missing = collectTable(plan))
     throw Error(std::to_string(missing) + " of " + counted(plan.keys.size(), "session") +
                     " missing in the table",
@@ -221,12 +231,16 @@ void printCampaignSlurm(const CampaignOptions& options, int asked) {
   const PlannedCampaign plan(options);
   session::makeOutputFolder(plan.out.string(), "");  // where the jobs' output goes
   const std::string command = commandOf(plan), out = fs::absolute(plan.out).lexically_normal();
+  const std::string& url = plan.options.records;
+  const std::string records =
+      url.empty() ? "" : " --records " + shellWord(evidence::absoluteRecords(url));
+  const int parts = partsOf(plan, asked);  // of the whole array, whatever of it is submitted again
   std::printf(
       "#!/bin/sh\n"
       "# %s: %s.\n"
       "# Kept as campaign.sbatch:\n"
       "#   sbatch campaign.sbatch       computes what is missing, one part a job of an array\n"
-      "#   %s --collect\n"
+      "#   %s%s --collect\n"
       "#       then, when all have ended: the table. As a job that waits for them:\n"
       "#   sbatch --dependency=afterany:$(sbatch --parsable campaign.sbatch) --wrap='...'\n"
       "#SBATCH --job-name=palpa-%s\n"
@@ -235,10 +249,10 @@ void printCampaignSlurm(const CampaignOptions& options, int asked) {
       "#SBATCH --mem-per-cpu=1G\n"
       "#SBATCH --output=%s\n"
       "exec %s --quiet --jobs \"${SLURM_CPUS_PER_TASK:-1}\" \\\n"
-      "  --part \"$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT\"\n",
+      "  --part \"$SLURM_ARRAY_TASK_ID/%d\"\n",
       plan.campaign.title.c_str(), sizeInWords(plan.campaign).c_str(), command.c_str(),
-      plan.campaign.id.c_str(), partsOf(plan, asked), shellWord(out + "/slurm-%A_%a.txt").c_str(),
-      command.c_str());
+      records.c_str(), plan.campaign.id.c_str(), parts, shellWord(out + "/slurm-%A_%a.txt").c_str(),
+      command.c_str(), parts);
 }
 
 }  // namespace palpa::study
