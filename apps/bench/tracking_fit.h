@@ -21,7 +21,7 @@ struct TrackingFit {
   /// camera changes its texture (0.633 and 0.895 m, VirtualCamera)
   std::vector<double> distances{0.46, 0.48, 0.5, 0.53, 0.62, 0.645, 0.75, 0.88, 0.91, 0.95, 1.0};
   double most_aside = 0.12, aside_step = 0.02;  ///< share of the distance
-  int views = 30;                               ///< of each place, each with a lens of its own
+  int views = 12;                               ///< of each place, each with a lens of its own
   /// when pictures of a view are taken, as the camera sways
   std::vector<double> seconds{0, 1 / 15.0, 2 / 15.0, 3 / 15.0, 8 / 15.0, 9 / 15.0, 1, 2};
   std::size_t repeated = 2;   ///< of these, taken a second time

@@ -139,6 +139,19 @@ TEST_F(SmallCampaign, WithoutHopeStopsEarly) {
   EXPECT_TRUE(says(all.printed, "clumsy.json")) << all.printed;
 }
 
+TEST_F(SmallCampaign, SaysAtOnceThatTheTrackingModelDoesNotKnowTheStation) {
+  nlohmann::json station =
+      nlohmann::json::parse(slurped(kAssets / "stations/palpation_bench.json"));
+  station["twin"]["camera_distance_mm"] = 1500;
+  put("far.json", station);
+  nlohmann::json campaign = nlohmann::json::parse(slurped(comparisons(1)));
+  campaign["station"] = "far.json";
+  campaign["settings"] = {{{"name", "model"}, {"tracking", "model"}}};
+  const Ran all = ran(options(put("campaign.json", campaign), "out"), here_ / "out.txt");
+  EXPECT_TRUE(says(all.failure, "far.json, twin/camera_distance_mm")) << all.failure;
+  EXPECT_TRUE(resultsIn("out").empty());
+}
+
 /// Files of this process and of those that it starts, while it lives.
 class NoRoom {
  public:

@@ -16,6 +16,7 @@
 #include "apps/os/worker_processes.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/output_folder.h"
+#include "apps/session/session_pictures.h"
 #include "apps/session/terminal.h"
 #include "apps/session/whole_session.h"
 #include "apps/station/station_file.h"
@@ -111,7 +112,10 @@ void checkBeforehand(const PlannedCampaign& plan) {
     if (s.task != 0 || s.patient != 0) break;  // operators and settings are all there is to settle
     session::SessionOptions options = sessionOptions(c, n, "");
     session::settle(options);
-    if (!c.station.empty()) session::settleOperator(options, station::readStation(c.station));
+    if (c.station.empty()) continue;
+    const station::Station station = station::readStation(c.station);
+    session::settleOperator(options, station);
+    session::SessionPictures(options, station);  // refuses what cannot be tracked so
   }
 }
 
