@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,15 +69,28 @@ void printStart(bool cached, const SessionCost& cost, nlohmann::json* params) {
   print("start_seconds", static_cast<double>(cost.started_ns) / kSecond, "s", *params);
 }
 
+/// Where built patients are kept, while it lives.
+class Cache {
+ public:
+  explicit Cache(const std::string& place) {
+    if (const char* const before = std::getenv(kVariable)) before_ = before;
+    setenv(kVariable, place.c_str(), 1);
+  }
+  Cache(const Cache&) = delete;
+  Cache& operator=(const Cache&) = delete;
+  ~Cache() { before_ ? setenv(kVariable, before_->c_str(), 1) : unsetenv(kVariable); }
+
+ private:
+  static constexpr const char* kVariable = "PALPA_CACHE";
+  std::optional<std::string> before_;
+};
+
 void benchBuiltPatient(const session::SessionOptions& options, std::int64_t loading_ns,
                        nlohmann::json* params) {
-  const char* const before = std::getenv("PALPA_CACHE");
-  const std::string folder = before ? before : "";
-  setenv("PALPA_CACHE", "off", 1);
+  const Cache none("off");
   SessionCost cost;
   hold(options, loading_ns, &cost);
   printStart(false, cost, params);
-  before ? setenv("PALPA_CACHE", folder.c_str(), 1) : unsetenv("PALPA_CACHE");
 }
 
 void benchKeptPatient(const session::SessionOptions& options, std::int64_t loading_ns,
@@ -106,6 +120,8 @@ void benchSession(const SessionBenchOptions& options) {
                         {"views", options.views},
                         {"seed", options.seed}};
   benchBuiltPatient(sessionOptions(options, 1, trackings.front()), loading_ns, &params);
+  const os::TemporaryFolder kept("palpa-bench-");
+  const Cache here(kept.path().string());
   session::NeedleWorld(sessionOptions(options, 1, trackings.front()));  // keeps the patient
   for (const std::string& tracking : trackings) {
     params["tracking"] = tracking;

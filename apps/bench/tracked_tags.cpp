@@ -15,6 +15,8 @@ double normalShare(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2);
 
 /// By Fisher's scoring.
 TagWidths fitTagWidths(const std::vector<TagChance>& tags) {
+  if (std::all_of(tags.begin(), tags.end(), [](const TagChance& tag) { return tag.found; }))
+    return {};
   constexpr double kSurelyFound = 25;  // px
   double a = -15 / 1.5, b = 1 / 1.5;   // found: a + b width > a normal variate
   for (int iteration = 0; iteration < 30; ++iteration) {

@@ -3,10 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <utility>
 
+#include "anatomy/base/error.h"
 #include "anatomy/base/random.h"
+#include "anatomy/base/units.h"
 #include "apps/twin/bench_truth.h"
 #include "apps/twin/virtual_camera.h"
 
@@ -121,11 +124,9 @@ struct FitPlace {
   double strength = 1;
   double weight = 1;  ///< how often a camera stands there
 
-  /// Without the bias, which was taken from so few views itself.
-  Vector6 left(const FitPicture& picture) const {
-    const double n = double(views.size());
-    return std::sqrt(n / std::max(n - 1, 1.0)) * (picture.z - bias);
-  }
+  /// Without the bias. What chance of so few views is in that is not in the rest: the sum of both
+  /// is what was measured.
+  Vector6 left(const FitPicture& picture) const { return picture.z - bias; }
 };
 
 /// `of(place, view, picture)` for each good picture.
@@ -159,7 +160,9 @@ void fitStrength(const Vector6& white, std::vector<FitPlace>* places) {
       sum += place.left(view[i]).cwiseAbs2();
       ++n;
     });
-    return Vector6((sum / std::max(n, 1.0) - white).cwiseMax(1e-9));
+    // Where all is white, the strength of the rest means nothing.
+    const Vector6 least = 0.01 * white + Vector6::Constant(1e-9);
+    return Vector6((sum / std::max(n, 1.0) - white).cwiseMax(least));
   };
   const Vector6 all = variance(*places);
   std::vector<double> ratio;
@@ -238,56 +241,99 @@ TrackingFigures startOf(const station::Station& station, const TrackingFit& fit)
   return f;
 }
 
+/// What a fit looks with.
+struct FitRig {
+  const station::Station& station;
+  const TrackingFit& fit;
+  std::unique_ptr<ar::Board> board;
+  std::vector<twin::VirtualCamera> cameras;  ///< each with a lens of its own
+  double sway;
+
+  FitRig(const station::Station& at, const TrackingFit& of)
+      : station(at),
+        fit(of),
+        board(ar::makeBoard(at.board, at.decimate)),
+        sway(twin::boomSway(at)) {
+    for (int i = 0; i < fit.views; ++i) {
+      const std::uint64_t seed = fit.seed + std::uint64_t(i);
+      cameras.emplace_back(twin::trueCamera(station, seed), station.board,
+                           twin::VirtualCameraSettings{}, seed);
+    }
+  }
+
+  FitPlace place(double distance, double aside, RandomStream& random) const {
+    const double across = aside / std::sqrt(1 - aside * aside);  // as the boom is told
+    FitPlace place;
+    for (const twin::VirtualCamera& camera : cameras) {
+      const Pose X = twin::boomView(distance * random.uniform(0.99, 1.01), across);
+      place.views.push_back(viewOf(camera, *board, station.board, X, fit, sway, random));
+    }
+    place.bias = meanOf(place.views);
+    place.weight = std::max(std::exp(-0.5 * std::pow(aside / twin::kBoomAside, 2)), 0.05);
+    return place;
+  }
+};
+
+void requireSeen(const std::vector<FitPlace>& places, double distance) {
+  double good = 0;
+  eachPicture(places, [&](const FitPlace&, const FitView&, std::size_t) { ++good; });
+  if (good > 0) return;
+  throw Error("shows no board whose place could be told from " +
+                  std::to_string(std::lround(distance / kMm)) + " mm",
+              "the virtual camera", "Give a --station whose camera sees its board from there");
+}
+
+/// All but the widths.
+TrackingFigures::Distance figuresOf(std::vector<FitPlace>* places, double distance,
+                                    std::size_t pictures) {
+  requireSeen(*places, distance);
+  const Vector6 white = whiteOf(*places, pictures);
+  fitStrength(white, places);
+  TrackingFigures::Distance out;
+  out.distance = distance;
+  fitSpread(*places, white, &out);
+  for (const FitPlace& place : *places) {
+    out.bias.push_back(place.bias);
+    out.strength.push_back(place.strength);
+  }
+  return out;
+}
+
+/// From which width on tags are found: at each place, and how sharply everywhere.
+void fitWidths(const std::vector<FitPlace>& all, std::size_t pictures, TrackingFigures* figures) {
+  std::vector<TagChance> every;
+  for (const FitPlace& place : all) {
+    const std::vector<TagChance> tags = tagsOf(place);
+    every.insert(every.end(), tags.begin(), tags.end());
+  }
+  const TagWidths widths = fitTagWidths(every);
+  figures->width_spread = widths.spread;
+  figures->width_lasting = lastingShareOf(repeatedTags(all, pictures), widths);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    figures->distances[i / figures->aside.size()].least_width.push_back(
+        leastWidthOf(tagsOf(all[i]), widths.spread, widths.least));
+}
+
 }  // namespace
 
 TrackingFigures fitTracking(const station::Station& station, const TrackingFit& fit,
                             const ShareDone& done) {
   TrackingFigures figures = startOf(station, fit);
-  const auto board = ar::makeBoard(station.board, station.decimate);
-  std::vector<twin::VirtualCamera> cameras;
-  for (int i = 0; i < fit.views; ++i) {
-    const std::uint64_t seed = fit.seed + std::uint64_t(i);
-    cameras.emplace_back(twin::trueCamera(station, seed), station.board,
-                         twin::VirtualCameraSettings{}, seed);
-  }
+  const FitRig rig(station, fit);
   RandomStream random(fit.seed, "bench.tracking_fit");
-  const double sway = twin::boomSway(station);
   std::vector<FitPlace> all;
-  std::vector<TagChance> every;
   for (const double distance : fit.distances) {
     std::vector<FitPlace> places;
     for (const double aside : figures.aside) {
-      const double across = aside / std::sqrt(1 - aside * aside);  // as the boom is told
-      FitPlace& place = places.emplace_back();
-      for (const twin::VirtualCamera& camera : cameras) {
-        const Pose X = twin::boomView(distance * random.uniform(0.99, 1.01), across);
-        place.views.push_back(viewOf(camera, *board, station.board, X, fit, sway, random));
-      }
-      place.bias = meanOf(place.views);
-      place.weight = std::max(std::exp(-0.5 * std::pow(aside / twin::kBoomAside, 2)), 0.05);
-      const std::vector<TagChance> tags = tagsOf(place);
-      every.insert(every.end(), tags.begin(), tags.end());
+      places.push_back(rig.place(distance, aside, random));
       if (done)
         done(double(all.size() + places.size()) /
              double(fit.distances.size() * figures.aside.size()));
     }
-    const Vector6 white = whiteOf(places, fit.seconds.size());
-    fitStrength(white, &places);
-    TrackingFigures::Distance& out = figures.distances.emplace_back();
-    out.distance = distance;
-    fitSpread(places, white, &out);
-    for (FitPlace& place : places) {
-      out.bias.push_back(place.bias);
-      out.strength.push_back(place.strength);
-      all.push_back(std::move(place));
-    }
+    figures.distances.push_back(figuresOf(&places, distance, fit.seconds.size()));
+    for (FitPlace& place : places) all.push_back(std::move(place));
   }
-  const TagWidths widths = fitTagWidths(every);
-  figures.width_spread = widths.spread;
-  figures.width_lasting = lastingShareOf(repeatedTags(all, fit.seconds.size()), widths);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    figures.distances[i / figures.aside.size()].least_width.push_back(
-        leastWidthOf(tagsOf(all[i]), widths.spread, widths.least));
+  fitWidths(all, fit.seconds.size(), &figures);
   return figures;
 }
 

@@ -45,6 +45,7 @@ void fitTrackingModel(const TrackingFitOptions& options) {
   const station::Station station = station::readStation(
       options.station.empty() ? station::assetFile("stations/virtual_bench.json")
                               : std::filesystem::path(options.station));
+  WholeFile written(options.file);
   const TrackingFigures figures =
       fitTracking(station, options.quick ? quickFit() : TrackingFit{}, options.done);
   printFigures(figures, station.title);
@@ -53,7 +54,9 @@ void fitTrackingModel(const TrackingFitOptions& options) {
   file["source"] = "palpa bench tracking --fit, on pictures of the virtual camera (" +
                    station.title + "), lenses of the seeds from " +
                    std::to_string(TrackingFit{}.seed) + " on";
-  WholeFile written(options.file);
+  if (options.quick)
+    file["source"] = "palpa bench tracking --fit --quick: few views, to try it out";
+  twin::trackingFiguresIn(JsonFile(file, options.file));  // refuses what no session would take
   written.write(file.dump(1) + "\n");
   written.finish();
 }

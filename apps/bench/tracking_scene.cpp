@@ -200,10 +200,9 @@ TrackedSession trackedSession(const station::Station& station, std::uint64_t see
     const auto number = std::uint64_t(session.pictures);
     const std::int64_t t_ns = std::llround(1e9 / kPicturesPerSecond * session.pictures);
     const Pose X = twin::swayed(boom, sway, t_ns);
-    const std::vector<ar::BoardPoint> points =
-        camera ? board->detect(camera->render(X, number)) : model.found(X, number);
-    session.tags_missed += 1 - double(points.size()) / corners;
-    const auto pose = tracker.take(points, t_ns);
+    const auto pose = camera ? tracker.see(camera->render(X, number), t_ns)
+                             : tracker.take(model.found(X, number), t_ns);
+    session.tags_missed += 1 - (pose ? pose->points : 0) / corners;
     const Pose exact = ar::refinePose(X, exactPoints(station.board, X, truth), station.camera).X_CW;
     const auto errorOf = [&](const Pose& X_CW) {
       return TrackedSession::Error{1e3 * (X_CW * watched_W - exact * watched_W),

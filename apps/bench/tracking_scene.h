@@ -82,7 +82,7 @@ struct TrackedSession {
   };
   std::vector<Error> measured, filtered;  ///< where there is a pose
   int pictures = 0;
-  double tags_missed = 0;  ///< sum over the pictures of the share of tags that are not found
+  double tags_missed = 0;  ///< sum over the pictures of the share of tags that are in no pose
 };
 TrackedSession trackedSession(const station::Station& station, std::uint64_t seed, int pictures,
                               TrackedBy by, const twin::TrackingFigures& figures);

@@ -1,3 +1,4 @@
+#include "anatomy/base/error.h"
 #include "apps/bench/bench.h"
 #include "apps/bench/tracking_fit.h"
 #include "apps/cli/commands.h"
@@ -210,10 +211,20 @@ void addTracking(CLI::App& bench) {
       ->check(inRange(5.0, 240.0, "a second"));
   tracking->add_option("--seed", options->seed, "Seed of the simulated noise")
       ->check(atLeastZero());
-  tracking->add_flag("--quick", options->quick, "A tenth of the pictures");
+  const std::vector<CLI::Option*> of_tracking = tracking->get_options();
+  CLI::Option* const quick =
+      tracking->add_flag("--quick", options->quick, "A tenth of the pictures");
   const auto model = addTrackingModel(*tracking);
+  for (const char* name : {"--fit", "--model"})
+    for (CLI::Option* other : of_tracking)
+      if (other != tracking->get_help_ptr()) tracking->get_option(name)->excludes(other);
+  tracking->get_option("--model")->excludes(quick);
   tracking->callback([options, model] {
-    if (model->fit.file.empty() && !model->compare) return bench::benchTracking(*options);
+    if (model->fit.file.empty() && !model->compare) {
+      if (!model->fit.station.empty())
+        throw UsageError("goes with --fit or --model", "--station", "Add one of them");
+      return bench::benchTracking(*options);
+    }
     model->fit.quick = options->quick;
     runTrackingModel(*model);
   });

@@ -8,9 +8,11 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
+#include "anatomy/base/sha256.h"
 #include "apps/assess/dose_counter.h"
 #include "apps/report/page/style.h"
 #include "apps/runtime/clock.h"
+#include "apps/twin/tracking_model.h"
 
 namespace palpa::session {
 namespace {
@@ -67,8 +69,10 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
       {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
       {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
   if (options.tracking == Tracking::model)
-    facts.push_back({"Board", "tracked by a model",
-                     "of the errors that pictures would have caused; no picture was drawn"});
+    facts.push_back(
+        {"Board", "tracked by a model",
+         "of the errors that pictures would have caused; no picture was drawn. Figures " +
+             sha256OfFile(twin::trackingFigureFile(station)).substr(0, 12)});
   if (!options.study.id.empty())
     facts.push_back({"Study", options.study.id,
                      "block " + options.study.block});  // not the condition: it may be blind

@@ -47,7 +47,8 @@ std::vector<double> atPlaces(const JsonFile& file, const std::string& field, std
   std::vector<double> values = file.numbers(field);
   if (values.size() != places) file.refuse(field, "must be " + std::to_string(places) + " numbers");
   for (const double x : values)
-    if (!(x >= 0 && x <= most)) file.refuse(field, "must not be negative, nor so large");
+    if (!(x >= 0 && x <= most))
+      file.refuse(field, "must be 0 to " + std::to_string(std::lround(most)));
   return values;
 }
 
@@ -75,7 +76,10 @@ void requireRising(const JsonFile& file, const std::string& field, std::size_t n
 }  // namespace
 
 TrackingFigures readTrackingFigures(const std::filesystem::path& path) {
-  const JsonFile file(path);
+  return trackingFiguresIn(JsonFile(path));
+}
+
+TrackingFigures trackingFiguresIn(const JsonFile& file) {
   needKind(file, "tracking_model", kVersion);
   TrackingFigures f;
   f.width = file.integer("camera/width_px", 16, 20000);
@@ -157,6 +161,10 @@ void requireFigures(const TrackingFigures& f, const station::Station& station) {
   const calibration::CameraModel& camera = station.design.camera;
   const ar::TagGridSpec &a = station.board, &b = f.board;
   const double distance = kMm * station.file.number("twin/camera_distance_mm", 100, 3000);
+  const std::string& name = station.file.name();
+  if (distance < f.distances.front().distance || distance > f.distances.back().distance)
+    throw UsageError("is where the tracking model was not measured",
+                     name + ", twin/camera_distance_mm", "Leave out --tracking model");
   const char* other = nullptr;
   if (camera.width != f.width || camera.height != f.height || !same(camera.fx, f.fx, kSameFocal) ||
       !same(station.decimate, f.decimate, kSame))
@@ -165,24 +173,24 @@ void requireFigures(const TrackingFigures& f, const station::Station& station) {
            !same(a.spacing, b.spacing, kSame) || a.border_bits != b.border_bits ||
            a.corner_squares != b.corner_squares)
     other = "board";
-  else if (distance < f.distances.front().distance || distance > f.distances.back().distance)
-    other = "twin/camera_distance_mm";
   if (other)
-    throw UsageError(
-        "is another than the one whose pictures the tracking model was measured on",
-        station.file.name() + ", " + other,
-        "Leave out --tracking model, or measure them: palpa bench tracking --fit FILE --station " +
-            station.file.name());
+    throw UsageError("is another than the one whose pictures the tracking model was measured on",
+                     name + ", " + other,
+                     "Leave out --tracking model, or measure them (palpa bench tracking --fit FILE "
+                     "--station " +
+                         name + ") and name that file in the station: twin/tracking_figures");
 }
 
 }  // namespace
 
-TrackingFigures trackingFiguresOf(const station::Station& station) {
+std::filesystem::path trackingFigureFile(const station::Station& station) {
   constexpr const char* kField = "twin/tracking_figures";
-  TrackingFigures figures = readTrackingFigures(
-      station.file.has(kField)
-          ? std::filesystem::path(station.file.name()).parent_path() / station.file.text(kField)
-          : station::assetFile("tracking/virtual_camera.json"));
+  if (!station.file.has(kField)) return station::assetFile("tracking/virtual_camera.json");
+  return std::filesystem::path(station.file.name()).parent_path() / station.file.text(kField);
+}
+
+TrackingFigures trackingFiguresOf(const station::Station& station) {
+  TrackingFigures figures = readTrackingFigures(trackingFigureFile(station));
   requireFigures(figures, station);
   return figures;
 }

@@ -54,8 +54,11 @@ struct TrackingFigures {
 
 /// Throws UsageError with file and field.
 TrackingFigures readTrackingFigures(const std::filesystem::path& file);
-/// Those that the station names ("twin/tracking_figures"), or the shipped ones. Throws UsageError,
-/// also where they are not for its camera, board and distance.
+TrackingFigures trackingFiguresIn(const JsonFile& file);
+/// The file that the station names ("twin/tracking_figures"), or the shipped one.
+std::filesystem::path trackingFigureFile(const station::Station& station);
+/// Those of that file. Throws UsageError, also where they are not for the station's camera, board
+/// and distance.
 TrackingFigures trackingFiguresOf(const station::Station& station);
 /// The same as data, without remarks.
 nlohmann::json jsonOf(const TrackingFigures& figures);

@@ -54,6 +54,19 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
           .empty());
 }
 
+/// Before anybody is enrolled.
+TEST_F(Study, OfVirtualTraineesRefusesAFilmOfWhatNoPictureShows) {
+  here.file("protocol.json", protocolText().dump());
+  const Outcome outcome =
+      palpa({"study", "run", "--protocol", "protocol.json", "--simulate", "1", "--learning",
+             kShipped + "/protocols/learners/paracentesis_learners.json", "--tracking", "model",
+             "--record-video", "--records", "records.sqlite"},
+            here.path());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+  EXPECT_TRUE(says(outcome.err, "--record-video with --tracking model")) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(here / "records.sqlite"));
+}
+
 /// The path's file keeps the pseudonyms of those who made it.
 TEST_F(Study, ExpertsAreKnownByTheirPseudonyms) {
   ASSERT_EQ(palpa(session({"--seed", kShortTrial, "--trainee", "E01", "--out", "E"}), here.path())

@@ -200,6 +200,20 @@ TEST(TrackingFigures, AreOfOneCameraAndBoard) {
     EXPECT_THROW(trackingFiguresOf(other), UsageError);
 }
 
+/// Too few numbers, or too many, would be read beyond their end.
+TEST(TrackingFigures, HaveAsManyNumbersAsPlaces) {
+  const JsonFile shipped(station::assetFile("tracking/virtual_camera.json"));
+  for (const char* field :
+       {"bias_px", "strength", "least_width_px", "lasting_px", "white_px", "wander_px"}) {
+    nlohmann::json less = shipped.json(), more = less;
+    nlohmann::json &few = less["distances"][1][field], &many = more["distances"][1][field];
+    few.erase(0);
+    many.push_back(many[0]);
+    for (const nlohmann::json& wrong : {less, more})
+      EXPECT_THROW(trackingFiguresIn(JsonFile(wrong, "figures.json")), UsageError) << field;
+  }
+}
+
 TEST(TrackingFigures, AreReadAsTheyWereWritten) {
   const TrackingFigures figures = trackingFiguresOf(shippedStation());
   const std::filesystem::path shipped = station::assetFile("tracking/virtual_camera.json");

@@ -13,6 +13,7 @@
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/search_session.h"
+#include "apps/session/session_pictures.h"
 #include "apps/session/terminal.h"
 #include "apps/study/learning.h"
 #include "apps/study/protocol.h"
@@ -91,6 +92,7 @@ void buildWorlds(Shared& shared) {
       auto& world = shared.needle_worlds[block.task] =
           std::make_unique<session::NeedleWorld>(options);
       world->station.camera_rate_Hz = kPicturesOfCohort_Hz;
+      session::SessionPictures(options, world->station);  // refuses what cannot be tracked so
     }
 }
 
@@ -187,6 +189,7 @@ void simulateStudy(const StudyOptions& given) {
   o.session.who = session::OperatorKind::learner;
   o.session.fast = o.session.no_views = o.session.quiet = true;
   o.session.display = scene::Display::offscreen;
+  session::settle(o.session);
   if (o.session.out.empty())
     o.session.out = session::makeOutputFolder("", "study-" + protocol.id).string();
   Shared shared{o, protocol, learners, {}};
