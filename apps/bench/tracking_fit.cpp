@@ -246,25 +246,23 @@ struct FitRig {
   const station::Station& station;
   const TrackingFit& fit;
   std::unique_ptr<ar::Board> board;
-  std::vector<twin::VirtualCamera> cameras;  ///< each with a lens of its own
   double sway;
 
   FitRig(const station::Station& at, const TrackingFit& of)
       : station(at),
         fit(of),
         board(ar::makeBoard(at.board, at.decimate)),
-        sway(twin::boomSway(at)) {
-    for (int i = 0; i < fit.views; ++i) {
-      const std::uint64_t seed = fit.seed + std::uint64_t(i);
-      cameras.emplace_back(twin::trueCamera(station, seed), station.board,
-                           twin::VirtualCameraSettings{}, seed);
-    }
-  }
+        sway(twin::boomSway(at)) {}
 
-  FitPlace place(double distance, double aside, RandomStream& random) const {
+  /// `number`: of the place. No two views are through the same lens: what one lens does would be
+  /// taken for what the place does.
+  FitPlace place(std::size_t number, double distance, double aside, RandomStream& random) const {
     const double across = aside / std::sqrt(1 - aside * aside);  // as the boom is told
     FitPlace place;
-    for (const twin::VirtualCamera& camera : cameras) {
+    for (int i = 0; i < fit.views; ++i) {
+      const std::uint64_t seed = fit.seed + number * std::uint64_t(fit.views) + std::uint64_t(i);
+      const twin::VirtualCamera camera(twin::trueCamera(station, seed), station.board,
+                                       twin::VirtualCameraSettings{}, seed);
       const Pose X = twin::boomView(distance * random.uniform(0.99, 1.01), across);
       place.views.push_back(viewOf(camera, *board, station.board, X, fit, sway, random));
     }
@@ -325,7 +323,7 @@ TrackingFigures fitTracking(const station::Station& station, const TrackingFit& 
   for (const double distance : fit.distances) {
     std::vector<FitPlace> places;
     for (const double aside : figures.aside) {
-      places.push_back(rig.place(distance, aside, random));
+      places.push_back(rig.place(all.size() + places.size(), distance, aside, random));
       if (done)
         done(double(all.size() + places.size()) /
              double(fit.distances.size() * figures.aside.size()));

@@ -23,7 +23,7 @@ struct TrackingFit {
   std::vector<double> distances{0.45, 0.46,  0.465, 0.47, 0.475, 0.48, 0.5, 0.53,
                                 0.62, 0.645, 0.75,  0.88, 0.91,  0.95, 1.0};
   double most_aside = 0.12, aside_step = 0.02;  ///< share of the distance
-  int views = 12;                               ///< of each place, each with a lens of its own
+  int views = 16;                               ///< of each place, each with a lens of its own
   /// when pictures of a view are taken, as the camera sways
   std::vector<double> seconds{0, 1 / 15.0, 2 / 15.0, 3 / 15.0, 8 / 15.0, 9 / 15.0, 1, 2};
   std::size_t repeated = 2;   ///< of these, taken a second time
@@ -67,7 +67,7 @@ void fitTrackingModel(const TrackingFitOptions& options);
 struct TrackingModelOptions {
   std::string station;
   int sessions = 800, pictures = 45;
-  std::uint64_t seed = 70001;
+  std::uint64_t seed = 80001;
   ShareDone done;
 };
 void benchTrackingModel(const TrackingModelOptions& options);

@@ -75,7 +75,8 @@ bool mayHappen(SafetyCause cause, ContactMode contact_mode) {
 }
 
 void campaign(ContactMode contact_mode, std::uint64_t seed, bool cues = false) {
-  const int faults = test::counted(20'000, 100'000) / 2;
+  // A sanitizer takes seventy times as long over them.
+  const int faults = test::counted(test::kSanitized ? 6'000 : 20'000, 100'000) / 2;
   Dice dice(seed);
   FaultJudge sum;
   for (int i = 0; i < faults / kFaultsInEpisode; ++i) {

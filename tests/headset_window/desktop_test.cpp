@@ -14,16 +14,18 @@ struct Ended {
   bool begun = false;
   std::string said;
 };
-/// So many seconds after the file `begun` is there, however long that takes: two minutes at most.
-Ended interruptedAfter(int seconds, const std::string& begun, const std::string& arguments,
+/// Once the headset has shown so many layers after the file `begun` was there, however long that
+/// takes: two minutes at most.
+Ended interruptedAfter(int layers, const std::string& begun, const std::string& arguments,
                        const test::TestXr& xr) {
   const std::string folder = xr.folder().string();
-  const std::string command =
-      std::string(PALPA_PROGRAM) +
-      " paracentesis --display openxr --operator person --quiet --out " + folder + "/out " +
-      arguments + " >/dev/null 2>" + folder + "/said.txt & program=$!; " +
-      "for i in $(seq 1200); do [ -s " + folder + "/out/" + begun + " ] && break; sleep 0.1; " +
-      "done; sleep " + std::to_string(seconds) + "; kill -TERM $program; wait $program";
+  const std::string command = std::string(PALPA_PROGRAM) +
+                              " paracentesis --display openxr --operator person --quiet --out " +
+                              folder + "/out " + arguments + " >/dev/null 2>" + folder +
+                              "/said.txt & program=$!; " + "for i in $(seq 1200); do [ -s " +
+                              folder + "/out/" + begun + " ] && [ $(cat " + folder +
+                              "/layers 2>/dev/null | wc -c) -ge " + std::to_string(layers) +
+                              " ] && break; sleep 0.1; done; kill -TERM $program; wait $program";
   Ended run;
   run.code = std::system(command.c_str());
   run.begun = std::filesystem::exists(xr.folder() / "out" / begun);
@@ -50,8 +52,9 @@ TEST(HeadsetDesktop, APersonHasAWindowAndAHeadset) {
 TEST(HeadsetDesktop, TheDemonstrationComesBefore) {
   if (!std::getenv("DISPLAY")) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64");
-  const Ended run = interruptedAfter(12, "demonstration/session.palpa", "", xr);
+  const Ended run = interruptedAfter(6, "demonstration/session.palpa", "", xr);
   EXPECT_TRUE(run.begun) << run.said;
+  EXPECT_GT(calls(xr.report(), "layers"), 5) << run.said;
   EXPECT_EQ(run.said.find("headset"), std::string::npos) << run.said;
   EXPECT_EQ(run.said.find("EGL"), std::string::npos) << run.said;
 }

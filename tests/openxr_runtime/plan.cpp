@@ -63,6 +63,8 @@ Plan planFromEnvironment() {
       plan.report = value;
     else if (name == "pictures")
       plan.pictures = value;
+    else if (name == "layers")
+      plan.layers = value;
   });
   return plan;
 }

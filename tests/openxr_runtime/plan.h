@@ -26,6 +26,7 @@ struct Plan {
   std::string service;   ///< service=FILE: every call asks a process, whose number stands there
   std::string report;    ///< file for what the program did
   std::string pictures;  ///< folder for what it showed last: eye0.pam, eye1.pam
+  std::string layers;    ///< file that grows by a byte with each layer that is shown
 
   bool failsFromTheStart(const std::string& name) const {
     return fault == name && fault_frame == 0;

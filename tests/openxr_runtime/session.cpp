@@ -289,6 +289,7 @@ XRAPI_ATTR XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
     w.ledger.complain("a frame was shown at another time than predicted");
   for (std::uint32_t i = 0; i < info->layerCount; ++i) {
     w.ledger.called("layers");
+    if (!w.plan.layers.empty()) std::ofstream(w.plan.layers, std::ios::app) << '.';
     checkLayer(w, *reinterpret_cast<const XrCompositionLayerProjection*>(info->layers[i]));
   }
   return XR_SUCCESS;

@@ -43,7 +43,7 @@ class TestXr {
     setenv("XR_RUNTIME_JSON", runtime_json.c_str(), 1);
     setenv("PALPA_TEST_XR",
            (plan + ";report=" + (folder_ / "report.txt").string() +
-            ";pictures=" + folder_.path().string())
+            ";pictures=" + folder_.path().string() + ";layers=" + (folder_ / "layers").string())
                .c_str(),
            1);
   }
