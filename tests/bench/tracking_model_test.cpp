@@ -82,9 +82,9 @@ bool areAlike(const char* name, const Both& both, Figure figure, double share, d
   return std::abs(model - pictures) <= allowed;
 }
 
-/// Root mean squares within `share`; correlations too, of which the whole is 1; missed ones within
-/// a hundredth of all tags, a twentieth of all pictures.
-void expectAllAlike(const Both& both, double share) {
+/// Root mean squares within `share`; correlations within `correlation`; missed ones within a
+/// hundredth of all tags, a twentieth of all pictures.
+void expectAllAlike(const Both& both, double share, double correlation) {
   const std::pair<const char*, Figure> spreads[]{
       {"shift, mm", [](const PathFigures& f) { return f.shift_mm; }},
       {"turn, mrad", [](const PathFigures& f) { return f.turn_mrad; }},
@@ -98,7 +98,7 @@ void expectAllAlike(const Both& both, double share) {
       {"autocorrelation, 8", [](const PathFigures& f) { return f.autocorrelation[2]; }},
       {"autocorrelation, 15", [](const PathFigures& f) { return f.autocorrelation[3]; }}};
   for (const auto& [name, figure] : correlations)
-    EXPECT_TRUE(areAlike(name, both, figure, share, 1)) << name;
+    EXPECT_TRUE(areAlike(name, both, figure, correlation, 1)) << name;
   EXPECT_TRUE(areAlike(
       "tags missed", both, [](const PathFigures& f) { return f.tags_missed; }, 0.01, 1));
   EXPECT_TRUE(areAlike(
@@ -107,7 +107,7 @@ void expectAllAlike(const Both& both, double share) {
 
 /// Where the shipped benches have their camera.
 TEST(TrackingModel, PoseErrorsAreThoseOfPictures) {
-  expectAllAlike(bothAt(500, test::counted(24, 800)), 0.05);
+  expectAllAlike(bothAt(500, test::counted(24, 800)), 0.05, 0.05);
 }
 
 /// A model that is wrong by a quarter (of few sessions: by all) is told from pictures.
@@ -119,14 +119,14 @@ TEST(TrackingModel, AWrongModelIsFoundOut) {
 
 /// Where the picture's edge begins to cut tags.
 TEST(TrackingModel, PoseErrorsAreNearlyThoseOfPicturesNearby) {
-  expectAllAlike(bothAt(470, test::counted(8, 400)), 0.1);
+  expectAllAlike(bothAt(470, test::counted(8, 400)), 0.1, 0.1);
 }
 
 /// Where tags are so small that some are not found the model is coarser (apps/twin/README.md).
 TEST(TrackingModel, PoseErrorsAreNearlyThoseOfPicturesFarAway) {
   const Both both = bothAt(950, test::counted(12, 400));
   EXPECT_GT(figuresOf(both.pictures).tags_missed, 0.02);
-  expectAllAlike(both, 0.1);
+  expectAllAlike(both, 0.1, 0.15);
 }
 
 /// Tags drawn as the model draws them give back what they were drawn with.
