@@ -122,7 +122,8 @@ void benchSession(const SessionBenchOptions& options) {
   benchBuiltPatient(sessionOptions(options, 1, trackings.front()), loading_ns, &params);
   const os::TemporaryFolder kept("palpa-bench-");
   const Cache here(kept.path().string());
-  session::NeedleWorld(sessionOptions(options, 1, trackings.front()));  // keeps the patient
+  SessionCost none;
+  hold(sessionOptions(options, 1, trackings.front()), loading_ns, &none);  // keeps the patient
   for (const std::string& tracking : trackings) {
     params["tracking"] = tracking;
     benchKeptPatient(sessionOptions(options, options.trials, tracking), loading_ns, params);

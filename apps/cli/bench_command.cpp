@@ -152,7 +152,7 @@ struct TrackingModelArguments {
 };
 
 std::shared_ptr<TrackingModelArguments> addTrackingModel(CLI::App& tracking) {
-  const auto o = std::make_shared<TrackingModelArguments>();
+  auto o = std::make_shared<TrackingModelArguments>();
   CLI::Option* fit =
       tracking
           .add_option("--fit", o->fit.file,

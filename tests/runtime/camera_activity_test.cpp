@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "activities.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::runtime {
 namespace {

@@ -29,7 +29,7 @@ json smallCampaign() {
 }
 
 fs::path writtenCampaign(const json& campaign) {
-  const fs::path file = test::freshFolder("study", "campaign") / "campaign.json";
+  fs::path file = test::freshFolder("study", "campaign") / "campaign.json";
   std::ofstream(file) << campaign.dump();
   return file;
 }
