@@ -25,7 +25,7 @@ constexpr const char* kSessionExamples = R"(Examples:
   palpa paracentesis --operator novice --force-feedback off --trials 5 --fast
       the same without force feedback, five trials
   palpa paracentesis --operator expert --trials 100 --fast --no-views --tracking model
-      many trials in little time: what tracking the board would show, without drawing the camera's pictures
+      many trials in little time: the board is tracked without drawing the camera's pictures
   palpa paracentesis --camera 'shots/left*.jpg' --intrinsics left.yml --board chessboard:9x6:0.025 --fast
       the patient on your own recorded pictures
   palpa paracentesis --igtl 18944

@@ -18,7 +18,8 @@ constexpr const char* kRunExamples = R"(Examples:
   palpa study run --protocol assets/protocols/paracentesis_pilot.json --trainee T001 --answers answers.json
       takes the questionnaire's answers from a file: {"useful": 4, "remarks": "..."}
   palpa study run --protocol assets/protocols/paracentesis_pilot.json --simulate --learning assets/protocols/learners/paracentesis_learners.json --records cohort.sqlite
-      virtual trainees who learn, to test the whole chain; marked as simulated; --tracking model saves a third of the time)";
+      virtual trainees who learn, to test the whole chain; marked as simulated;
+      --tracking model saves a third of the time)";
 
 /// Notes of this station name the records; they must mean the same from any folder.
 std::string fromAnywhere(const std::string& url) {

@@ -22,46 +22,38 @@ namespace {
 constexpr int kVersion = 1;
 constexpr double kMostPx = 20;
 
-Vector6 sixNumbers(const JsonFile& file, const std::string& field) {
-  const std::vector<double> values = file.numbers(field);
-  if (values.size() != 6) file.refuse(field, "must be six numbers");
+std::vector<double> numbersIn(const JsonFile& file, const std::string& field, std::size_t count,
+                              double least, double most) {
+  std::vector<double> values = file.numbers(field);
+  if (values.size() != count) file.refuse(field, "must be " + std::to_string(count) + " numbers");
   for (const double x : values)
-    if (!(std::abs(x) <= kMostPx)) file.refuse(field, "must be pixels, -20 to 20");
-  return Vector6::Map(values.data());
+    if (!(x >= least && x <= most))
+      file.refuse(field, "must be " + std::to_string(std::lround(least)) + " to " +
+                             std::to_string(std::lround(most)));
+  return values;
+}
+
+Vector6 sixPixels(const JsonFile& file, const std::string& field) {
+  return Vector6::Map(numbersIn(file, field, 6, -kMostPx, kMostPx).data());
 }
 
 /// `count` groups of six.
 template <class Groups>
 void readGroups(const JsonFile& file, const std::string& field, std::size_t count, Groups* groups) {
-  const std::vector<double> values = file.numbers(field);
-  if (values.size() != 6 * count)
-    file.refuse(field, "must be " + std::to_string(6 * count) + " numbers");
-  for (const double x : values)
-    if (!(std::abs(x) <= kMostPx)) file.refuse(field, "must be pixels, -20 to 20");
+  const std::vector<double> values = numbersIn(file, field, 6 * count, -kMostPx, kMostPx);
   for (std::size_t i = 0; i < count; ++i) (*groups)[i] = Vector6::Map(values.data() + 6 * i);
-}
-
-/// One at each place.
-std::vector<double> atPlaces(const JsonFile& file, const std::string& field, std::size_t places,
-                             double most) {
-  std::vector<double> values = file.numbers(field);
-  if (values.size() != places) file.refuse(field, "must be " + std::to_string(places) + " numbers");
-  for (const double x : values)
-    if (!(x >= 0 && x <= most))
-      file.refuse(field, "must be 0 to " + std::to_string(std::lround(most)));
-  return values;
 }
 
 TrackingFigures::Distance readDistance(const JsonFile& file, std::size_t places) {
   TrackingFigures::Distance one;
   one.distance = kMm * file.number("distance_mm", 100, 3000);
   one.corner_sigma = file.number("corner_sigma_px", 0, kMostPx);
-  one.strength = atPlaces(file, "strength", places, 100);
-  one.least_width = atPlaces(file, "least_width_px", places, 1000);
+  one.strength = numbersIn(file, "strength", places, 0, 100);
+  one.least_width = numbersIn(file, "least_width_px", places, 0, 1000);
   one.bias.resize(places);
   readGroups(file, "bias_px", places, &one.bias);
-  one.lasting = sixNumbers(file, "lasting_px");
-  one.white = sixNumbers(file, "white_px");
+  one.lasting = sixPixels(file, "lasting_px");
+  one.white = sixPixels(file, "white_px");
   readGroups(file, "wander_px", TrackingFigures::kWaves, &one.wander);
   return one;
 }

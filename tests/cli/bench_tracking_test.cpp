@@ -43,9 +43,10 @@ TEST(BenchTracking, MeasuresTheTrackingModelAndComparesIt) {
   Outcome outcome = palpa({"bench", "tracking", "--fit", "figures.json", "--quick"}, here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::map<std::string, int> lines;
-  std::istringstream text(outcome.out);
-  for (std::string line; std::getline(text, line);)
-    ++lines[nlohmann::json::parse(line).at("metric").get<std::string>()];
+  for (const nlohmann::json& line : jsonLines(outcome)) {
+    ++lines[line.at("metric").get<std::string>()];
+    EXPECT_EQ(line["params"]["data"], "simulated");
+  }
   EXPECT_EQ(lines["tracking_model.corner_sigma"], 2);
   EXPECT_EQ(lines["tracking_model.width_spread"], 1);
   nlohmann::json station = nlohmann::json::parse(

@@ -18,7 +18,7 @@ trap 'exit 130' INT TERM
 export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data
 fail() {
   echo "FAIL: $*"
-  tail -n 5 "$work/said.txt"
+  tail -n 5 "$work/said.txt" 2>/dev/null
   exit 1
 }
 
@@ -34,10 +34,14 @@ middle() { sort -n | sed -n "$((($1 + 1) / 2))p"; }   # of so many numbers
 
 case $kind in
   window)
+    command -v Xvfb >/dev/null || { echo "Skipped: Xvfb is not installed"; exit 77; }
     minutes=${asked:-120}
     Xvfb -displayfd 3 -screen 0 1280x800x24 3>"$work/display" 2>/dev/null &
     server=$!
-    until [ -s "$work/display" ]; do sleep 0.1; done
+    until [ -s "$work/display" ]; do
+      kill -0 $server 2>/dev/null || fail "Xvfb does not start"
+      sleep 0.1
+    done
     # It lives in real time, the tests beside it do not.
     DISPLAY=:$(cat "$work/display") nice -n -5 "$palpa" paracentesis --display window \
       --operator expert --trials 1000 --quiet --out "$work/session" >"$work/said.txt" 2>&1 &

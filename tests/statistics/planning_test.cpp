@@ -81,8 +81,6 @@ TEST(Raters, WeightedKappaByHand) {
   EXPECT_THROW(kappa({2}, {0}, 2), Error);
 }
 
-// Figures of power.t.test of R 4: n = 20, delta = 1: 0.8689528; power .90: 22.02110 a group; Cohen
-// 1988: d = .5, power .80: 64.
 /// So many pairs without a true difference are found equivalent as often as planned.
 TEST(Power, OfEquivalenceIsWhatDrawsShow) {
   constexpr double kMargin = 0.5;
@@ -105,6 +103,8 @@ TEST(Power, OfEquivalenceIsWhatDrawsShow) {
   EXPECT_THROW(powerOfEquivalence(0.5, 1), Error);
 }
 
+// Figures of power.t.test of R 4: n = 20, delta = 1: 0.8689528; power .90: 22.02110 a group; Cohen
+// 1988: d = .5, power .80: 64.
 TEST(Power, PublishedFigures) {
   EXPECT_NEAR(powerOfTwoGroups(1, 20, 20), 0.8689528, 5e-7);
   EXPECT_EQ(subjectsPerGroup(1, 0.90), 23);
