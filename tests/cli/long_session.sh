@@ -56,6 +56,8 @@ case $kind in
     last=$(tail -n $span "$work/kilobytes" | middle $span)
     echo "$minutes minutes with a window: $((first / 1000)) MB after the first twelfth," \
       "$((last / 1000)) MB at the end, $(($(wc -l <"$work/session/trials.csv") - 1)) trials"
+    echo "MB at each twelfth:" $(awk -v step=$((5 * minutes)) 'NR % step == 0 {
+      printf "%d ", $1 / 1000 }' "$work/kilobytes")
     [ $((last - first)) -le 20000 ] || fail "it grew by $((last - first)) kB"
     ;;
   trials)
