@@ -26,6 +26,7 @@ constexpr int kMemoryPools = 2;
 constexpr int kLargeMemory = 512 * 1024, kSpareMemory = 16 * 1024 * 1024;  // bytes
 constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
 constexpr std::size_t kPage = 4096;         // the smallest there is
+constexpr std::size_t kSmallStack = 2 << 20;
 
 std::string because(int error) {
   if (error == EPERM) return " (this user may not)";
@@ -94,6 +95,13 @@ std::thread startThread(std::function<void()> work) {
     throw Error("gives no further threads", "this computer",
                 "End other programs, or raise the limit (ulimit -u)");
   }
+}
+
+void keepStacksSmall() {
+  pthread_attr_t usual;
+  if (pthread_getattr_default_np(&usual) != 0) return;
+  if (pthread_attr_setstacksize(&usual, kSmallStack) == 0) pthread_setattr_default_np(&usual);
+  pthread_attr_destroy(&usual);
 }
 
 void shareMemoryPools() { mallopt(M_ARENA_MAX, kMemoryPools); }

@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
+#include <pthread.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -332,6 +333,23 @@ TEST(Memory, LargePiecesGoBackAsSoonAsTheyAreFree) {
     ::_exit(mallinfo2().hblks == before ? 0 : 4);
   };
   EXPECT_EXIT(given_back(), testing::ExitedWithCode(0), "");
+}
+
+/// In a process of its own: the setting stays.
+TEST(Memory, AThreadsStackIsSmall) {
+  const auto small = [] {
+    keepStacksSmall();
+    std::size_t size = 0;
+    startThread([&size] {
+      pthread_attr_t now;
+      void* from = nullptr;
+      if (pthread_getattr_np(pthread_self(), &now) != 0) return;
+      pthread_attr_getstack(&now, &from, &size);
+      pthread_attr_destroy(&now);
+    }).join();
+    ::_exit(size > 0 && size <= (2 << 20) + 65536 ? 0 : 3);
+  };
+  EXPECT_EXIT(small(), testing::ExitedWithCode(0), "");
 }
 
 /// Pages of this process that are in memory.
