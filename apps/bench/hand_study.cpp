@@ -1,4 +1,4 @@
-#include "apps/bench/hand_study.h"
+#include "apps/bench/contact_study.h"
 
 #include <algorithm>
 #include <array>

@@ -6,14 +6,15 @@
 #include <string>
 
 #include "apps/bench/contact_study.h"
-#include "apps/bench/hand_study.h"
 #include "apps/bench/timing.h"
 #include "apps/station/assets.h"
 
 namespace palpa::bench {
 namespace {
 
-nlohmann::json paramsOf(Noise noise) { return {{"noise", nameOf(noise)}, {"data", "simulated"}}; }
+nlohmann::json paramsOf(Noise noise) {
+  return {{"noise", nameOf(noise)}, {"cleared", clearedBy(noise)}, {"data", "simulated"}};
+}
 
 void benchContact(const twin::Phantom& phantom, const KnownPhantom& known, Noise noise) {
   const std::vector<TouchRun> runs = freshTouches(twin::PhantomTwin(phantom.table, {}), noise);
@@ -89,7 +90,7 @@ class WorstHands {
   }
   void print(std::size_t hands) const {
     for (const auto& [which, figures] : worst_) {
-      nlohmann::json params = paramsOf(Noise::realistic);
+      nlohmann::json params = paramsOf(Noise::low_passed);
       params["device"] = which.first;
       params["modulation"] = which.second;
       params["hands"] = hands;
@@ -118,7 +119,7 @@ void benchHands(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
     dropped_mm = std::max(dropped_mm, figures.dropped_mm);
   }
   worst.print(hands.size());
-  nlohmann::json params = paramsOf(Noise::realistic);
+  nlohmann::json params = paramsOf(Noise::low_passed);
   params["hands"] = hands.size();
   print("held_object_slid_mm", dropped_mm, "mm", params);
 }
@@ -131,8 +132,8 @@ void benchMaterial(const MaterialBenchOptions& options) {
                        station::assetFile("phantoms/mockups.tables.json"));
   const twin::PhantomTwin plain(phantoms.front().table, {});
   print("hc_param_error", lawError(), "1", paramsOf(Noise::none));
-  for (const Noise noise : {Noise::none, Noise::realistic}) {
-    if (options.quick && noise == Noise::realistic) break;
+  for (const Noise noise : {Noise::none, Noise::low_passed, Noise::kalman}) {
+    if (options.quick && noise != Noise::none) break;
     const KnownPhantom known = identifyPhantom(plain, noise);
     benchContact(phantoms.front(), known, noise);
     if (noise == Noise::none) benchSqueeze(phantoms.front().table, known.contact.law);

@@ -24,20 +24,30 @@ twin::SensorTruth biased(std::uint64_t seed) {
 
 }  // namespace
 
-SensedTouch::SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device)
-    : device_(device), sensor_(biased(seed), seed) {
+SensedTouch::SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device, Noise noise)
+    : device_(device), sensor_(biased(seed), seed), kalman_(noise == Noise::kalman) {
   filter_.low_pass = haptics::butterworth(kCutOff_Hz, kRate_Hz);
   filter_.tool.mass = kMassKnown * twin::SensorTruth{}.tool_mass;
   filter_.tool.p_SM = twin::SensorTruth{}.p_SM;
   filter_.p_SK = {0, 0, kSensorAbove};
+  haptics::ReactionSettings settings;
+  settings.place_m = device.encoder_step / std::sqrt(12.0);
+  settings.tool = filter_.tool;
+  settings.p_SK = filter_.p_SK;
+  reaction_ = haptics::ReactionFilter(settings);
 }
 
 std::pair<Vec3, Vec3> SensedTouch::feel(const Vec3& true_tip, const Vec3& f_touch, double dt) {
   const Pose X_PS = makePose(kDown, true_tip + kSensorAbove * Vec3::UnitZ());
   const PackedPose shown = twin::encoderReading(device_, X_PS);
   const haptics::WrenchSample sample = sensor_.measure(X_PS, f_touch, true_tip, dt, t_ns_);
-  const haptics::ContactWrench felt = haptics::step(filter_, state_, sample, shown, t_ns_);
+  const std::int64_t t_ns = t_ns_;
   t_ns_ += std::llround(1e9 * dt);
+  if (kalman_) {
+    const haptics::Reaction felt = haptics::step(reaction_, reaction_state_, sample, shown, t_ns);
+    return {unpack(felt.p_WK), unpack(felt.f_W)};
+  }
+  const haptics::ContactWrench felt = haptics::step(filter_, state_, sample, shown, t_ns);
   const Vec3 f_r = felt.valid ? Vec3(kDown * unpack(felt.contact.f_S)) : Vec3(Vec3::Zero());
   return {unpack(felt.p_WK), f_r};
 }
@@ -63,13 +73,13 @@ namespace {
 /// What one tool feels, tick after tick.
 class TouchRecorder {
  public:
-  TouchRecorder(Noise noise, std::uint64_t seed) : noise_(noise), sensed_(seed) {}
+  TouchRecorder(Noise noise, std::uint64_t seed) : noise_(noise), sensed_(seed, {}, noise) {}
   PhantomTick record(const Vec3& true_tip, const twin::PhantomTouch& truth) {
     PhantomTick tick;
     tick.true_tip = tick.tip = true_tip;
     tick.truth = truth;
     tick.f_r = truth.f;
-    if (noise_ == Noise::realistic)
+    if (noise_ != Noise::none)
       std::tie(tick.tip, tick.f_r) = sensed_.feel(true_tip, truth.f, kPhantomTick);
     if (before_) tick.dp = tick.tip - *before_;
     before_ = tick.tip;
@@ -87,6 +97,11 @@ std::size_t ticksOf(double duration) { return static_cast<std::size_t>(duration 
 }  // namespace
 
 const char* nameOf(Noise noise) { return noise == Noise::none ? "none" : "realistic"; }
+
+const char* clearedBy(Noise noise) {
+  if (noise == Noise::none) return "nothing";
+  return noise == Noise::kalman ? "kalman" : "low-pass";
+}
 
 std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const twin::LedTip& tip,
                                      Noise noise, std::uint64_t seed) {

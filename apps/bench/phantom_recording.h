@@ -8,24 +8,36 @@
 #include "apps/twin/device_twin.h"
 #include "apps/twin/hand_motion.h"
 #include "apps/twin/phantom/phantom_twin.h"
+#include "haptics/sensors/reaction_filter.h"
 #include "haptics/sensors/wrench_filter.h"
 
 namespace palpa::bench {
 
+/// How the phantom is felt: as it is, or through a device's encoders and a force sensor that
+/// carries a tool; then cleared of noise by a low-pass or by a Kalman filter.
+enum class Noise { none, low_passed, kalman };
+const char* nameOf(Noise noise);     ///< "none", "realistic"
+const char* clearedBy(Noise noise);  ///< "nothing", "low-pass", "kalman"
+
 /// A tool's tip and the reaction on it, as a station knows them: a device's encoders; a sensor on
 /// its last link that carries the tool, whose mass was identified to 1 % and whose bias to 5 mN
-/// [chosen]. Both through one low-pass, so that they are late by the same.
+/// [chosen]. Both through one low-pass, so that they are late by the same; or by a Kalman filter,
+/// which is not late.
 class SensedTouch {
  public:
-  explicit SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device = {});
+  explicit SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device = {},
+                       Noise noise = Noise::low_passed);
   /// The next tick: measured tip, m, and reaction, N, in P. The tool stands upright.
   std::pair<Vec3, Vec3> feel(const Vec3& true_tip, const Vec3& f_touch, double dt);
 
  private:
   twin::DeviceTruth device_;
   twin::SensorTwin sensor_;
+  bool kalman_;
   haptics::WrenchFilter filter_;
   haptics::WrenchFilterState state_;
+  haptics::ReactionFilter reaction_;
+  haptics::ReactionState reaction_state_;
   std::int64_t t_ns_ = 0;
 };
 
@@ -43,11 +55,6 @@ class LedPair {
   double half_;
   std::array<twin::LedTip, 2> tips_;
 };
-
-/// How the phantom is felt: as it is, or through a device's encoders and a force sensor that
-/// carries a tool.
-enum class Noise { none, realistic };
-const char* nameOf(Noise noise);
 
 /// One tick on a simulated phantom.
 struct PhantomTick {

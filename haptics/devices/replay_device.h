@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
 #include <vector>
 
+#include "anatomy/base/error.h"
 #include "haptics/device.h"
 
 namespace palpa::haptics {
@@ -10,6 +14,9 @@ namespace palpa::haptics {
 struct RecordedReading {
   std::int64_t t_ns = 0;  ///< session time of the tick
   DeviceReading reading;
+  friend bool operator<(const RecordedReading& a, const RecordedReading& b) noexcept {
+    return a.t_ns < b.t_ns;
+  }
 };
 
 /// Plays a recorded hand: the reading of the newest recorded tick whose time has come, the last one
@@ -18,9 +25,20 @@ struct RecordedReading {
 class ReplayDevice final : public HapticDevice {
  public:
   /// Throws UsageError when there is nothing to play, or times go back.
-  ReplayDevice(DeviceCapabilities capabilities, std::vector<RecordedReading> readings);
+  ReplayDevice(DeviceCapabilities capabilities, std::vector<RecordedReading> readings)
+      : capabilities_(std::move(capabilities)), readings_(std::move(readings)) {
+    if (readings_.empty())
+      throw UsageError("holds no readings", "replay of a device",
+                       "Choose a session in which a trial was run");
+    if (!std::is_sorted(readings_.begin(), readings_.end()))
+      throw UsageError("has times that go back", "replay of a device", "Choose another session");
+  }
   const DeviceCapabilities& capabilities() const override { return capabilities_; }
-  DeviceReading read(std::int64_t now_ns) noexcept override;
+  DeviceReading read(std::int64_t now_ns) noexcept override {
+    const auto after =
+        std::upper_bound(readings_.begin(), readings_.end(), RecordedReading{now_ns, {}});
+    return after == readings_.begin() ? DeviceReading{} : std::prev(after)->reading;
+  }
   void command(std::int64_t, const Packed3&) noexcept override {}
 
  private:

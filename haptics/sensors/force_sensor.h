@@ -17,6 +17,8 @@ enum WrenchFlag : std::uint32_t {
   kSaturated = 1u << 3,   ///< the sensor reports saturated gauges: the values mean nothing
   kOverload = 1u << 4,    ///< a component is at or beyond the stated range
 };
+/// Flags of samples that are not used. An overload is used: it is large, if not exact.
+inline constexpr std::uint32_t kUnusable = kNothingYet | kSilent | kFault | kSaturated;
 
 /// One sample of a force sensor, as measured: with bias, tool weight and noise in it.
 /// S: sensor frame. Force and torque are what the tool exerts on the sensor, about the origin of S.

@@ -89,9 +89,6 @@ struct ContactWrench {
   Packed3 p_WK{};
 };
 
-/// Flags of samples that are not used. An overload is used: it is large, if not exact.
-inline constexpr std::uint32_t kUnusable = kNothingYet | kSilent | kFault | kSaturated;
-
 /// One tick: `sample` and the pose of S in W, both of time `t_ns`. It takes three poses and two
 /// samples to begin; after an unusable or not finite input, or a gap, it begins anew. No
 /// allocation, no exception.

@@ -14,12 +14,16 @@ namespace {
 using Lines = std::vector<nlohmann::json>;
 
 /// Those without noise, and what hands do, which is with noise always.
-Lines judgedLines(const Outcome& outcome) {
+bool isJudged(const nlohmann::json& line) {
+  return line["params"]["noise"] == "none" || line["params"].contains("hands");
+}
+bool isCleared(const nlohmann::json& line) { return line["params"]["cleared"] == "kalman"; }
+
+Lines linesOf(const Outcome& outcome, bool (*wanted)(const nlohmann::json&)) {
   Lines lines;
   for (const nlohmann::json& line : jsonLines(outcome)) {
     EXPECT_EQ(line["params"]["data"], "simulated");
-    if (line["params"]["noise"] == "none" || line["params"].contains("hands"))
-      lines.push_back(line);
+    if (wanted(line)) lines.push_back(line);
   }
   return lines;
 }
@@ -58,7 +62,7 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   if (!test::fullCounts()) arguments.push_back("--quick");
   const Outcome outcome = palpa(arguments, here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Lines lines = judgedLines(outcome);
+  const Lines lines = linesOf(outcome, isJudged);
   EXPECT_LE(worst(lines, "hc_param_error"), 0.01);
   EXPECT_LE(worst(lines, "hc_force_rel_rms"), 0.07);
   EXPECT_LE(worst(lines, "dahl_force_rel_rms"), 0.07);
@@ -80,6 +84,11 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_LE(worst(lines, "hand_still_mm_s"), 2);  // nothing swings on and on: that would be tens
   EXPECT_LE(worst(lines, "hand_gained_mJ"), 0.1);
   EXPECT_LE(worst(lines, "hand_largest_force"), 8);
+  if (!test::fullCounts()) return;
+  const Lines cleared = linesOf(outcome, isCleared);
+  EXPECT_EQ(valuesOf(cleared, "stiffness_rel_error").size(), 12u);
+  EXPECT_LE(worst(cleared, "stiffness_rel_error"), 0.07) << "with realistic noise, too";
+  EXPECT_LE(worst(cleared, "friction_rel_error"), 0.07);
 }
 
 }  // namespace

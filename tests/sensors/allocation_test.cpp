@@ -5,6 +5,7 @@
 #include "fake_net_ft.h"
 #include "haptics/sensors/force_sensor.h"
 #include "haptics/sensors/net_ft_sensor.h"
+#include "haptics/sensors/reaction_filter.h"
 #include "haptics/sensors/wrench_filter.h"
 #include "moving_tool.h"
 
@@ -55,6 +56,20 @@ TEST(Allocation, TheFilterStepsWithoutAny) {
   bool valid = true;
   const NoAllocation guard;
   for (int k = 0; k < 100; ++k)
+    valid = step(filter, state, {}, tool.pose(k * 1e-3), k * 1'000'000LL).valid;
+  EXPECT_EQ(guard.allocations(), 0);
+  EXPECT_TRUE(valid);
+}
+
+TEST(Allocation, TheKalmanFilterStepsWithoutAny) {
+  const MovingTool tool(2);
+  ReactionSettings settings;
+  settings.tool = tool.load();
+  const ReactionFilter filter(settings);
+  ReactionState state;
+  bool valid = true;
+  const NoAllocation guard;
+  for (int k = 0; k < 1000; ++k)
     valid = step(filter, state, {}, tool.pose(k * 1e-3), k * 1'000'000LL).valid;
   EXPECT_EQ(guard.allocations(), 0);
   EXPECT_TRUE(valid);

@@ -53,12 +53,13 @@ inline Jet<Mat3> turn(const Vec3& axis, const Jet<double>& angle) {
 /// Newton's law for each point: no inertia tensor and no angular velocity in it.
 class MovingTool {
  public:
-  explicit MovingTool(std::uint64_t seed) {
+  /// `heavy`: 1: some 150 g.
+  explicit MovingTool(std::uint64_t seed, double heavy = 1) {
     RandomStream random(seed, "moving tool");
     for (Sway& s : place_) s = Sway(0.06, random);
     for (Sway& s : angle_) s = Sway(2.0, random);
     for (std::size_t i = 0; i < kPoints; ++i) {
-      mass_[i] = random.uniform(0.01, 0.05);
+      mass_[i] = heavy * random.uniform(0.01, 0.05);
       for (int k = 0; k < 3; ++k) p_S_[i][k] = random.uniform(-0.03, 0.03);
       p_S_[i].z() += 0.05;
     }
