@@ -7,7 +7,6 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/usage_words.h"
-#include "apps/os/real_time.h"
 #include "apps/os/signals.h"
 #include "apps/session/force_guard.h"
 
@@ -46,7 +45,6 @@ int main(int argc, char** argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
     verbose = takeVerbose(&words);
     palpa::os::letLargeFilesFail();
-    palpa::os::keepStacksSmall();
     cv::setNumThreads(1);  // results must not depend on the number of cores
     if (!verbose) quietLibraries();
     if (palpa::session::isGuard(words)) return palpa::session::standGuard(words);

@@ -34,7 +34,8 @@ std::thread startThread(std::function<void()> work);
 
 /// Threads that this process and its libraries start from now on have a stack of 2 MiB instead of
 /// the 8 that are usual. Where memory is locked all of it is held, and that of a few threads that
-/// have ended as well (glibc keeps 40 MB of such).
+/// have ended as well (glibc keeps 40 MB of such). Not for a server: what parses a hostile request
+/// may go deep.
 void keepStacksSmall();
 
 /// The calling thread gives way to all others that want to run.

@@ -22,7 +22,10 @@ namespace {
 /// `hold` leaves all of a session in its folder; true: somebody ended it early.
 template <class Hold>
 SessionLeft heldIn(const SessionOptions& options, Hold hold) {
-  if (!options.fast) os::giveLargeMemoryBack();  // it may last for hours
+  if (!options.fast) {  // it may last for hours
+    os::giveLargeMemoryBack();
+    os::keepStacksSmall();
+  }
   OutputFolder output(options.out, options.command);
   const os::InterruptNote interrupt;  // whatever comes now, report and table are written
   const std::filesystem::path& folder = output.path();
