@@ -25,7 +25,7 @@ constexpr double kRise = 0.26;        // 1 - 1/M of the force law with M = 1.35
 constexpr double kSlow_s = 0.03;      // slower motion is left out of the regressions
 constexpr double kForgets_s = 2;      // how long a regression remembers
 constexpr double kLeastMotion = 1e-7, kSteepest = 5000;  // of a regression; the units of c and h
-constexpr double kTouched_N = 0.1;                       // more than that is foretold
+constexpr double kTouched_N = 0.1;                       // more than that is predicted
 constexpr double kAir_N = 0.01, kAir_s = 0.2, kLate_s = 0.01;
 constexpr double kSpeedNoise = 5e-3;  // m/s, of the difference of two velocities
 constexpr int kBlock = 50;            // ticks
@@ -74,10 +74,6 @@ Mat6 reactionChain(double dt) {
   return F;
 }
 
-bool allFinite(const auto& values) noexcept {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
 /// Slope of y over x of late, without a constant, by the sums of their products.
 double slope(double xy, double xx, double keeps, double& sum_xy, double& sum_xx) noexcept {
   sum_xy = keeps * sum_xy + xy;
@@ -97,11 +93,13 @@ ReactionFilter::ReactionFilter(const ReactionSettings& settings) : settings_(set
   H(0, 0) = 1;
   H(1, 2) = -m;
   H(1, 4) = 1;
+  const Mat6 F = reactionChain(dt);
+  Eigen::Map<Mat6>(F_.data()) = F;
   Vec6 q = Vec6::Zero();
   q[3] = kSnap * dt;
   q[5] = kForceRate * dt;
   const Settled<6, 2> settled =
-      settle<6, 2>(reactionChain(dt), H, q, Eigen::Vector2d(settings.place_m, settings.noise_N));
+      settle<6, 2>(F, H, q, Eigen::Vector2d(settings.place_m, settings.noise_N));
   Eigen::Map<Eigen::Matrix<double, 6, 2, Eigen::RowMajor>>(gain_.data()) = settled.gain;
   noise_N_ = std::sqrt(3 * settled.P(4, 4));
   Eigen::Map<Vec4>(place_gain_.data()) =
@@ -143,7 +141,7 @@ struct ReactionStep {
   }
 
   /// How the reaction changes of itself, N/s.
-  Vec3 foretold() const noexcept {
+  Vec3 predictedChange() const noexcept {
     const Vec3 f = x.row(4), v = k.row(1);
     const double size = f.norm();
     if (size < kTouched_N) return Vec3::Zero();
@@ -152,13 +150,14 @@ struct ReactionStep {
   }
 
   void predict() noexcept {
-    const Vec3 change = foretold();
+    const Vec3 change = predictedChange();
     const Eigen::Matrix<double, 6, 3> before = x;
-    x.noalias() = reactionChain(dt) * before;
+    const Eigen::Map<const Mat6> F(filter.F_.data());
+    x.noalias() = F * before;
     x.row(4) += dt * change.transpose();
     for (Axes<4>* const each : {&k, &m}) {
       const Eigen::Matrix<double, 4, 3> was = *each;
-      each->noalias() = chain<4>(dt) * was;
+      each->noalias() = F.topLeftCorner<4, 4>() * was;
     }
   }
 
@@ -241,7 +240,7 @@ struct ReactionStep {
 Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSample& sample,
               const PackedPose& X_WS, std::int64_t t_ns) noexcept {
   Reaction now;
-  if (!allFinite(X_WS.p) || !allFinite(X_WS.q)) {
+  if (!finite(X_WS.p) || !finite(X_WS.q)) {
     state.seen = state.quiet = 0;
     return now;
   }
@@ -250,7 +249,7 @@ Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSa
   const Vec3 p_WS = unpack(X_WS.p), p_M = p_WS + R_WS * unpack(tick.of.tool.p_SM),
              p_K = p_WS + R_WS * unpack(tick.of.p_SK), g = unpack(tick.of.g_W);
   now.p_WK = pack(p_K);
-  const bool usable = !(sample.flags & kUnusable) && allFinite(sample.f_S);
+  const bool usable = !(sample.flags & kUnusable) && finite(sample.f_S);
   const double periods = static_cast<double>(t_ns - state.t_ns) * 1e-9 * tick.of.rate_Hz;
   state.t_ns = t_ns;
   if (!usable || periods < 0 || periods > 4) state.seen = state.quiet = 0;
@@ -261,7 +260,7 @@ Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSa
   tick.correct(p_M, p_K, s);
   tick.learnRises(s + tick.mass() * Vec3(tick.m.row(2)));
   tick.learnLoad(R_WS, s, g);
-  if (!allFinite(state.x) || !allFinite(state.k) || !allFinite(state.load)) {  // beyond all numbers
+  if (!finite(state.x) || !finite(state.k) || !finite(state.load)) {  // beyond all numbers
     state = {};
     return now;
   }

@@ -25,11 +25,11 @@ struct ReactionSettings {
 /// The reaction of the world on the tool, by a Kalman filter that is not late.
 ///
 /// State along each axis of W: place, velocity, acceleration and jerk of the tool's centre of mass
-/// M, the reaction f, and the rate d of what nothing foretells of it; shown are M's place and
+/// M, the reaction f, and the rate d of what nothing predicts of it; shown are M's place and
 ///
 ///   s = R_WS (f_meas - b) - m g = f - m a,          b the bias, m the mass (signs: tool_load.h)
 ///
-/// Jerk and d are random walks. What is touched foretells the rest (touch reckoning):
+/// Jerk and d are random walks. The law of what is touched predicts the rest:
 ///
 ///   f' = -c |f|^(1-1/M) (v . u) u - h (v - (v . u) u) + d,     u = f/|f|,   M = 1.35
 ///
@@ -55,6 +55,7 @@ class ReactionFilter {
  private:
   friend struct ReactionStep;
   ReactionSettings settings_;
+  std::array<double, 36> F_{};          ///< 6 x 6, of a tick; the first four are a place's, too
   std::array<double, 12> gain_{};       ///< 6 x 2: of M's place and of s
   std::array<double, 4> place_gain_{};  ///< of K's place, and of M's in the calm filter
   double noise_N_ = 0;                  ///< of the reaction, standard deviation of all three
@@ -68,7 +69,7 @@ struct ReactionState {
   std::array<double, 4> load{};      ///< error of the bias in S, N, and of the mass, kg
   std::array<double, 16> load_P{};   ///< its covariance
   Packed3 f_slow{}, k_slow{};        ///< N and m: slow parts of reaction and of K's place
-  double c = 0, h = 0;               ///< foretold rises; 0: not known
+  double c = 0, h = 0;               ///< predicted rises; 0: not known
   std::array<double, 2> xy{}, xx{};  ///< sums of their regressions, over force and motion
   double f_late = 0;                 ///< N, |f| of late
   std::array<double, 9> turn_sum{};  ///< R_WS over the block of ticks in the air

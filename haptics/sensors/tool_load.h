@@ -1,12 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
 #include "anatomy/geometry/pose.h"
 
 namespace palpa::haptics {
+
+/// Every one of the numbers is.
+bool finite(const auto& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
 
 /// Force and torque about the origin of S, both in S. N, N m.
 struct Wrench {

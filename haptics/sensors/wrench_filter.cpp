@@ -23,10 +23,6 @@ LowPass butterworth(double cutoff_Hz, double rate_Hz) {
 
 namespace {
 
-bool finite(const auto& values) noexcept {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
 std::array<double, 6> contactUnfiltered(const WrenchFilter& filter, const Wrench& measured,
                                         const SensorMotion& motion) noexcept {
   const Wrench tool = toolWrench(filter.tool, motion);
