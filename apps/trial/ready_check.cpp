@@ -8,11 +8,11 @@ using runtime::EventKind;
 
 namespace {
 
-// A simulated person does what he sees: on a computer that hardly draws, he is given his pictures,
-// but not for ever.
+// A simulated person moves while there is a picture to see: on a computer that hardly draws he is
+// given as many as these seconds show at 30 a second, but not for ever.
 constexpr std::int64_t kReadyPatience = 15 * runtime::kSecond,
                        kLongestPatience = 8 * kReadyPatience;
-constexpr std::uint64_t kReadyPictures = 60;
+constexpr std::uint64_t kReadyPictures = 450;
 
 }  // namespace
 

@@ -29,6 +29,8 @@ after(async () => {
 const points = () => page.locator(".curves").getAttribute("data-points").then(Number);
 const state = (word) => page.locator(".live-state", { hasText: word });
 const over = () => page.getByRole("link", { name: "Read the result" });
+/** ms: a trial on a computer that hardly draws, where hands move only while they see. */
+const kWhole = 240_000;
 
 /** A simulated hand begins by itself: pressed just then, the button would be "Pause" already. A
     person's trial waits for it, and the station says so. */
@@ -125,7 +127,7 @@ test(
 
 test(
   "an assessed trial is watched live, and a note taken",
-  { skip, timeout: 300_000 },
+  { skip, timeout: 2 * kWhole },
   async (t) => {
     await e.go("#/session");
     await e.examine("session");
@@ -154,7 +156,7 @@ test(
     await page.waitForFunction(() => document.querySelector("img.view")?.naturalWidth > 0);
     await page.waitForTimeout(1200);
     await e.picture("live");
-    await over().waitFor({ timeout: 120_000 });
+    await over().waitFor({ timeout: kWhole });
     assert.equal(
       await page.locator(".event.note", { hasText: "left hand not in the field" }).count(),
       1,
@@ -166,7 +168,7 @@ test(
 
 test(
   "a trial is voided with a reason, the next one counts",
-  { skip, timeout: 400_000 },
+  { skip, timeout: 2 * kWhole },
   async () => {
     await startAssessed(trainees[1], 2);
     await page.getByRole("button", { name: "Pause" }).click();
@@ -176,9 +178,9 @@ test(
     await e.picture("void");
     await page.getByRole("dialog").getByRole("button", { name: "Void the trial" }).click();
     await page.locator(".events .event", { hasText: /void/i }).first().waitFor();
-    await state("Trial is running, trial 2").or(over()).first().waitFor({ timeout: 120_000 });
+    await state("Trial is running, trial 2").or(over()).first().waitFor({ timeout: kWhole });
     if (!(await over().isVisible())) await e.examine("live");
-    await over().waitFor({ timeout: 180_000 });
+    await over().waitFor({ timeout: kWhole });
   },
 );
 
@@ -324,7 +326,7 @@ test(
   {
     skip:
       skip || (begin ? false : "PALPA_CONSOLE_BEGIN is not set: this console may not be killed"),
-    timeout: 600_000,
+    timeout: 3 * kWhole,
   },
   async (t) => {
     const full = !!process.env.PALPA_FULL;
@@ -354,7 +356,7 @@ test(
       await page.locator(".event.note", { hasText: "the console was away" }).waitFor();
       e.away = other.away = false;
       await other.page.locator(".event.note", { hasText: "the console was away" }).waitFor();
-      await over().waitFor({ timeout: 300_000 });
+      await over().waitFor({ timeout: 2 * kWhole });
       await other.page.getByRole("link", { name: "Read the result" }).waitFor();
       const mine = await told(page),
         theirs = await told(other.page);
