@@ -171,6 +171,7 @@ double frictionModulationError(const KnownPhantom& known, const twin::PhantomTab
 namespace {
 
 constexpr double kThick = 0.06;  // m
+constexpr double kInAir = 2;     // s before they touch
 constexpr double
     kFirm = 3e-3,
     kDeepest = 7e-3;  // m that both tools press, so that nothing slips, to begin with and at most
@@ -190,36 +191,61 @@ std::array<double, 2> settledDepths(const twin::PhantomTable& side, double sum, 
 
 }  // namespace
 
-double squeezeError(const twin::PhantomTable& side, const haptics::HuntCrossley& known,
-                    const SqueezeCase& squeeze) {
+namespace {
+
+/// Two tools and the object between them, and what truly is at a time.
+struct Held {
+  std::array<Vec3, 2> p, f_r;  ///< m; N, the object's reaction
+  double mean = 0;             ///< m of depth, of both
+  bool judged = false;
+};
+
+/// From the air to touch together; lifted once they hold firmly; then squeezed to and fro.
+Held heldAt(double t, const twin::PhantomTable& side, const Vec3& l, const Vec3& weight) {
+  Held held;
+  held.mean = t < 1 ? kFirm * t : kFirm + (kDeepest - kFirm) * 0.5 * (1 - std::cos(2 * (t - 1)));
+  const Vec3 half = 0.5 * (kThick - 2 * held.mean) * l;
+  held.p = {half, -half};
+  held.f_r = {Vec3::Zero(), Vec3::Zero()};
+  held.judged = t >= 1.5;
+  if (held.mean <= 0) return held;
+  const Vec3 hangs = std::clamp((t - 1) / 0.5, 0.0, 1.0) * weight,
+             across = 0.5 * (hangs - hangs.dot(l) * l);
+  const std::array<double, 2> x = settledDepths(side, 2 * held.mean, hangs.dot(l));
+  // Outward push, and half of the weight across the line.
+  held.f_r = {pushOf(side, x[0]) * l + across, -pushOf(side, x[1]) * l + across};
+  return held;
+}
+
+}  // namespace
+
+double squeezeError(const twin::PhantomTable& side, const calibration::SoftContact& known,
+                    const SqueezeCase& squeeze, Noise noise) {
   const Vec3 l(std::cos(squeeze.tilt), 0,
                std::sin(squeeze.tilt));  // from the second tool to the first, the higher one
-  const double weight = squeeze.mass * kGravity;
-  const Vec3 on_object(0, 0, -weight), along = on_object.dot(l) * l, across = on_object - along;
+  const Vec3 weight(0, 0, -squeeze.mass * kGravity);
+  const std::size_t a = squeeze.swapped ? 1 : 0;
+  std::array<TouchRecorder, 2> tools{TouchRecorder(noise, kFresh), TouchRecorder(noise, kSeen)};
   haptics::SqueezeState state;
   haptics::SqueezeModulation law;
-  law.real = known;
+  law.real = known.law;
+  law.x0 = known.x0;
   RelativeRms error;
-  for (double t = 0; t < 4; t += kPhantomTick) {
-    // Both come to touch together; lifted once they hold firmly.
-    const double mean =
-        t < 1 ? kFirm * t : kFirm + (kDeepest - kFirm) * 0.5 * (1 - std::cos(2 * (t - 1)));
-    const double lifted = std::min(1.0, std::max(0.0, (t - 1) / 0.5));
-    const std::array<double, 2> x = settledDepths(side, 2 * mean, lifted * on_object.dot(l));
-    // The object's reaction on a tool: outward push, and half of the weight across the line.
-    const std::array<Vec3, 2> f_r{pushOf(side, x[0]) * l + 0.5 * lifted * across,
-                                  -pushOf(side, x[1]) * l + 0.5 * lifted * across};
-    const std::array<Vec3, 2> p{0.5 * (kThick - 2 * mean) * l, -0.5 * (kThick - 2 * mean) * l};
-    const int a = squeeze.swapped ? 1 : 0, b = 1 - a;
-    law.target.constant = mean > 0 ? squeeze.factor * pushOf(side, mean) / mean : 1;
-    const haptics::Squeezed now = haptics::modulateSqueeze(
-        law, {f_r[static_cast<std::size_t>(a)], f_r[static_cast<std::size_t>(b)]},
-        {p[static_cast<std::size_t>(a)], p[static_cast<std::size_t>(b)]}, &state);
-    if (t < 1.5) continue;
+  for (double t = -kInAir; t < 4; t += kPhantomTick) {
+    const Held held = heldAt(t, side, l, weight);
+    std::array<Vec3, 2> p, f_r;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const PhantomTick felt = tools[i].record(held.p[i], {.f = held.f_r[i]});
+      p[i ^ a] = felt.tip;
+      f_r[i ^ a] = felt.f_r;
+    }
+    law.target.constant = held.mean > 0 ? squeeze.factor * pushOf(side, held.mean) / held.mean : 1;
+    const haptics::Squeezed now = haptics::modulateSqueeze(law, f_r, p, &state);
+    if (!held.judged) continue;
     for (std::size_t i = 0; i < 2; ++i) {
       const Vec3 u = i == 0 ? l : Vec3(-l),
-                 wanted = law.target.constant * mean * u + 0.5 * on_object;
-      error.add(f_r[i] + now.f_d[i == static_cast<std::size_t>(a) ? 0 : 1] - wanted, wanted);
+                 wanted = law.target.constant * held.mean * u + 0.5 * weight;
+      error.add(held.f_r[i] + now.f_d[i ^ a] - wanted, wanted);
     }
   }
   return error.value();

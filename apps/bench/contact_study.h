@@ -76,9 +76,9 @@ struct SqueezeCase {
   bool swapped = false;  ///< the tools' numbers
 };
 /// The hands' forces against k~ x on both, k~ = factor f_true(x)/x at the mean depth, with the true
-/// weight: rms over rms.
-double squeezeError(const twin::PhantomTable& side, const haptics::HuntCrossley& known,
-                    const SqueezeCase& squeeze);
+/// weight: rms over rms. `known`: of a side, identified with the same noise.
+double squeezeError(const twin::PhantomTable& side, const calibration::SoftContact& known,
+                    const SqueezeCase& squeeze, Noise noise);
 
 /// Tools led over the plain phantom: what is felt there, onto which lumps are rendered. Fresh
 /// motions above the lump's place and beside it.
@@ -130,6 +130,7 @@ struct HandCase {
   haptics::TouchAugmentation law;
   haptics::PlacedLumps lumps;
   bool modulated = true;
+  Noise noise = Noise::low_passed;
 };
 HandFigures handFigures(const twin::PhantomTwin& phantom, const HandCase& one);
 
@@ -145,9 +146,10 @@ std::vector<twin::HandGrip> judgedHands();
 std::vector<twin::HandGrip> ringingHands();
 
 /// Every modulation of a single contact with every device and each of `hands`; `lump`: as
-/// identified, at its place `p_T0` in the phantom, m.
+/// identified, at its place `p_T0` in the phantom, m. `noise`: how what is felt is cleared of it.
 std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump,
-                                const Vec3& p_T0, const std::vector<twin::HandGrip>& hands);
+                                const Vec3& p_T0, const std::vector<twin::HandGrip>& hands,
+                                Noise noise);
 
 /// Watches a hand-held thing: calm while it is held still, energy from the hand.
 class HandWatch {
@@ -171,6 +173,7 @@ struct GripCase {
   twin::HandGrip grip;
   haptics::SqueezeModulation law;
   bool modulated = true;
+  Noise noise = Noise::low_passed;
 };
 struct GripFigures {
   /// Gained: by both, beyond what the object, as heavy as it is to feel, has lost in height
@@ -180,7 +183,7 @@ struct GripFigures {
 GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one);
 
 /// Harder, softer, heavier, lighter and all at once, with every device and each of `hands`.
-std::vector<GripCase> gripCases(const haptics::HuntCrossley& side,
-                                const std::vector<twin::HandGrip>& hands);
+std::vector<GripCase> gripCases(const calibration::SoftContact& side,
+                                const std::vector<twin::HandGrip>& hands, Noise noise);
 
 }  // namespace palpa::bench

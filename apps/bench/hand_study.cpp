@@ -57,7 +57,7 @@ HandFigures handFigures(const twin::PhantomTwin& start, const HandCase& one) {
   const LedTip way = handsWay();
   twin::PhantomTwin phantom = start;
   twin::DeviceTwin device(one.truth, makePose(Mat3::Identity(), way.at(0)));
-  SensedTouch sensed(kHandSeed, one.truth);
+  SensedTouch sensed(kHandSeed, one.truth, one.noise);
   haptics::TouchAugmentationState state;
   HandWatch watch;
   Vec3 f_touch = Vec3::Zero();
@@ -100,7 +100,8 @@ std::vector<twin::HandGrip> judgedHands() {
 std::vector<twin::HandGrip> ringingHands() { return {{100, 2, 0.2}, {1000, 2, 0.2}}; }
 
 std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump,
-                                const Vec3& p_T0, const std::vector<twin::HandGrip>& hands) {
+                                const Vec3& p_T0, const std::vector<twin::HandGrip>& hands,
+                                Noise noise) {
   const haptics::Dahl real = known.friction.law;
   struct HandChange {
     const char* name;
@@ -120,7 +121,8 @@ std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchA
   for (const JudgedDevice& device : judgedDevices()) {
     for (const HandChange& change : changes) {
       for (const twin::HandGrip& grip : hands) {
-        HandCase one{device.name, change.name, device.truth, grip, lump, {}, change.modulated};
+        HandCase one{device.name, change.name, device.truth,     grip,
+                     lump,        {},          change.modulated, noise};
         one.law.surface = {feelingOf(known, 0.1), change.wanted};
         one.law.surface.contact.target.factor = change.factor;
         one.law.other_friction = 1;
@@ -173,8 +175,8 @@ GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one) {
   };
   std::array<twin::DeviceTwin, 2> devices{twin::DeviceTwin(one.truth, hand(0, 0)),
                                           twin::DeviceTwin(one.truth, hand(1, 0))};
-  std::array<SensedTouch, 2> sensed{SensedTouch(kGripSeed, one.truth),
-                                    SensedTouch(kGripSeed + 1, one.truth)};
+  std::array<SensedTouch, 2> sensed{SensedTouch(kGripSeed, one.truth, one.noise),
+                                    SensedTouch(kGripSeed + 1, one.truth, one.noise)};
   twin::HeldObject object({kHalf, kMass}, side, {});
   haptics::SqueezeState state;
   HandWatch watch;
@@ -212,8 +214,8 @@ GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one) {
   return figures;
 }
 
-std::vector<GripCase> gripCases(const haptics::HuntCrossley& side,
-                                const std::vector<twin::HandGrip>& hands) {
+std::vector<GripCase> gripCases(const calibration::SoftContact& side,
+                                const std::vector<twin::HandGrip>& hands, Noise noise) {
   struct GripChange {
     const char* name;
     double factor, weight;
@@ -228,10 +230,12 @@ std::vector<GripCase> gripCases(const haptics::HuntCrossley& side,
     for (const GripChange& change : changes) {
       for (const twin::HandGrip& grip : hands) {
         haptics::SqueezeModulation law;
-        law.real = side;
+        law.real = side.law;
+        law.x0 = side.x0;
         law.target.factor = change.factor;
         law.weight_factor = change.weight;
-        cases.push_back({device.name, change.name, device.truth, grip, law, change.modulated});
+        cases.push_back(
+            {device.name, change.name, device.truth, grip, law, change.modulated, noise});
       }
     }
   }

@@ -35,17 +35,19 @@ void benchContact(const twin::Phantom& phantom, const KnownPhantom& known, Noise
         paramsOf(noise));
 }
 
-void benchSqueeze(const twin::PhantomTable& side, const haptics::HuntCrossley& known) {
+void benchSqueeze(const twin::PhantomTable& side, const calibration::SoftContact& known,
+                  Noise noise) {
   for (const double mass : {0.0, 0.05}) {
     for (const double tilt_deg : {0.0, 30.0, 60.0}) {
       double worst = 0;
       for (const double factor : {0.5, 2.0}) {
         for (const bool swapped : {false, true})
           worst = std::max(
-              worst, squeezeError(side, known,
-                                  {mass, tilt_deg * std::numbers::pi / 180, factor, swapped}));
+              worst,
+              squeezeError(side, known, {mass, tilt_deg * std::numbers::pi / 180, factor, swapped},
+                           noise));
       }
-      nlohmann::json params = paramsOf(Noise::none);
+      nlohmann::json params = paramsOf(noise);
       params["mass_kg"] = mass;
       params["tilt_deg"] = tilt_deg;
       print("squeeze_rel_error", worst, "1", params);
@@ -83,6 +85,7 @@ void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
 /// The worst hand for every device and modulation.
 class WorstHands {
  public:
+  explicit WorstHands(Noise noise) : noise_(noise) {}
   void add(const std::string& device, const std::string& modulation, const HandFigures& figures) {
     HandFigures& w = worst_[{device, modulation}];
     w = {std::max(w.still_mm_s, figures.still_mm_s), std::max(w.gained_mJ, figures.gained_mJ),
@@ -90,7 +93,7 @@ class WorstHands {
   }
   void print(std::size_t hands) const {
     for (const auto& [which, figures] : worst_) {
-      nlohmann::json params = paramsOf(Noise::low_passed);
+      nlohmann::json params = paramsOf(noise_);
       params["device"] = which.first;
       params["modulation"] = which.second;
       params["hands"] = hands;
@@ -101,25 +104,26 @@ class WorstHands {
   }
 
  private:
+  Noise noise_;
   std::map<std::pair<std::string, std::string>, HandFigures> worst_;
 };
 
 void benchHands(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& known,
-                const std::vector<twin::HandGrip>& hands) {
+                const std::vector<twin::HandGrip>& hands, Noise noise) {
   const twin::PhantomTwin plain(phantoms.front().table, {});
-  WorstHands worst;
+  WorstHands worst(noise);
   for (const HandCase& one : handCases(known, lumpOver(phantoms[1], known, Noise::none),
-                                       phantoms[1].block.lump->centre, hands))
+                                       phantoms[1].block.lump->centre, hands, noise))
     worst.add(one.device, one.modulation, handFigures(plain, one));
   double dropped_mm = 0;
-  for (const GripCase& one : gripCases(known.contact.law, hands)) {
+  for (const GripCase& one : gripCases(known.contact, hands, noise)) {
     const GripFigures figures = gripFigures(phantoms.front().table, one);
     worst.add(one.device, one.modulation == "none" ? "squeezed, none" : one.modulation,
               figures.hands);
     dropped_mm = std::max(dropped_mm, figures.dropped_mm);
   }
   worst.print(hands.size());
-  nlohmann::json params = paramsOf(Noise::low_passed);
+  nlohmann::json params = paramsOf(noise);
   params["hands"] = hands.size();
   print("held_object_slid_mm", dropped_mm, "mm", params);
 }
@@ -136,9 +140,12 @@ void benchMaterial(const MaterialBenchOptions& options) {
     if (options.quick && noise != Noise::none) break;
     const KnownPhantom known = identifyPhantom(plain, noise);
     benchContact(phantoms.front(), known, noise);
-    if (noise == Noise::none) benchSqueeze(phantoms.front().table, known.contact.law);
-    if (noise == Noise::none)
-      benchHands(phantoms, known, options.quick ? ringingHands() : judgedHands());
+    benchSqueeze(phantoms.front().table, known.contact, noise);
+    if (noise == Noise::none) {
+      benchHands(phantoms, known, options.quick ? ringingHands() : judgedHands(),
+                 Noise::low_passed);
+      if (!options.quick) benchHands(phantoms, known, judgedHands(), Noise::kalman);
+    }
     benchLumps(phantoms, known, noise, options.quick ? 3 : phantoms.size());
   }
 }

@@ -1,7 +1,6 @@
 #include "apps/bench/phantom_recording.h"
 
 #include <cmath>
-#include <optional>
 #include <tuple>
 
 #include "anatomy/base/random.h"
@@ -68,29 +67,19 @@ LedPair& LedPair::go(double shift, const std::array<double, 2>& depths, double s
   return *this;
 }
 
+PhantomTick TouchRecorder::record(const Vec3& true_tip, const twin::PhantomTouch& truth) {
+  PhantomTick tick;
+  tick.true_tip = tick.tip = true_tip;
+  tick.truth = truth;
+  tick.f_r = truth.f;
+  if (noise_ != Noise::none)
+    std::tie(tick.tip, tick.f_r) = sensed_.feel(true_tip, truth.f, kPhantomTick);
+  if (before_) tick.dp = tick.tip - *before_;
+  before_ = tick.tip;
+  return tick;
+}
+
 namespace {
-
-/// What one tool feels, tick after tick.
-class TouchRecorder {
- public:
-  TouchRecorder(Noise noise, std::uint64_t seed) : noise_(noise), sensed_(seed, {}, noise) {}
-  PhantomTick record(const Vec3& true_tip, const twin::PhantomTouch& truth) {
-    PhantomTick tick;
-    tick.true_tip = tick.tip = true_tip;
-    tick.truth = truth;
-    tick.f_r = truth.f;
-    if (noise_ != Noise::none)
-      std::tie(tick.tip, tick.f_r) = sensed_.feel(true_tip, truth.f, kPhantomTick);
-    if (before_) tick.dp = tick.tip - *before_;
-    before_ = tick.tip;
-    return tick;
-  }
-
- private:
-  Noise noise_;
-  SensedTouch sensed_;
-  std::optional<Vec3> before_;
-};
 
 std::size_t ticksOf(double duration) { return static_cast<std::size_t>(duration / kPhantomTick); }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,18 @@ struct PhantomTick {
 };
 
 inline constexpr double kPhantomTick = 1e-3;  ///< s
+
+/// What one tool feels, tick after tick.
+class TouchRecorder {
+ public:
+  TouchRecorder(Noise noise, std::uint64_t seed) : noise_(noise), sensed_(seed, {}, noise) {}
+  PhantomTick record(const Vec3& true_tip, const twin::PhantomTouch& truth);
+
+ private:
+  Noise noise_;
+  SensedTouch sensed_;
+  std::optional<Vec3> before_;
+};
 
 /// The tip led over a phantom. Position and force pass the same low-pass where there is noise, and
 /// are late by the same.

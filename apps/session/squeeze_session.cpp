@@ -76,6 +76,7 @@ haptics::PairConfig SqueezeWorld::pairConfig(const SessionOptions& options) cons
   }
   pair.squeezing = 1;
   pair.squeeze.real = task.library.surface;
+  pair.squeeze.x0 = task.library.x0;
   pair.squeeze.least_contact = task.touch;
   return pair;
 }

@@ -10,13 +10,32 @@ namespace {
 
 constexpr double kPressedWithin = 0.05;  // tan 3 degrees
 constexpr double kNormalFollows = 1e-4;  // m of sliding
+constexpr double kAngleDoubt = 0.01;     // N across a reaction [chosen]
+constexpr double kForceDoubt = 0.025;    // N, of a reaction [chosen]
+constexpr double kLawDoubt = 0.05;       // of a depth that the law tells [chosen]
 
-/// The part of a motion that slides over a surface of normal u.
-Vec3 slidOf(const Vec3& dp, const Vec3& u) noexcept {
+/// The part of a motion that slides over a surface of normal u, which a force of f N tells: a light
+/// one badly.
+Vec3 slidOf(const Vec3& dp, const Vec3& u, double f) noexcept {
   const double pressed = dp.dot(u);
   const Vec3 along = dp - pressed * u;
-  const double length = along.norm(), sticks = kPressedWithin * std::abs(pressed);
+  const double length = along.norm(),
+               sticks = (kPressedWithin + kAngleDoubt / f) * std::abs(pressed);
   return length > sticks ? Vec3(along * (1 - sticks / length)) : Vec3(Vec3::Zero());
+}
+
+/// Where both begin to touch, from one tick's distance and squeezing force.
+void learnBegin(const SqueezeModulation& law, double apart, double F,
+                SqueezeState& state) noexcept {
+  if (!(law.real.k > 0)) {
+    if (state.d0 == 0) state.d0 = apart;
+    return;
+  }
+  const double x = depthOf(law.real, F, 0), rise = std::max(stiffnessOf(law.real, x, 0), 1.0),
+               by_force = kForceDoubt / rise, by_law = kLawDoubt * x,
+               weight = 1 / (by_force * by_force + by_law * by_law);
+  state.weight += weight;
+  state.d0 += (apart + 2 * (law.x0 + x) - state.d0) * weight / state.weight;
 }
 
 }  // namespace
@@ -30,7 +49,7 @@ Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, con
   // At first touch the reaction itself is the best normal there is; from then on the last one.
   const Vec3 u_before = state->f_n > 0 ? unpack(state->u_n) : Vec3(f_r.normalized());
   const double f_before = state->f_n > 0 ? state->f_n : f_r.norm();
-  const Vec3 slid = slidOf(dp, u_before),
+  const Vec3 slid = slidOf(dp, u_before, f_before),
              drag = dragOf(law.friction, slid, u_before, f_before, dt, &state->friction);
   const Vec3 f_rn = f_r + drag;
   Modulated now;
@@ -47,7 +66,11 @@ Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, con
   const double wanted =
       law.target.constant > 0 ? law.target.constant * now.x : law.target.factor * now.f_n;
   now.f_d = (wanted - now.f_n) * now.u_n;
-  const double follows = state->f_n > 0 ? 1 - pinned::exp(-slid.norm() / kNormalFollows) : 0;
+  double follows = 0;
+  if (state->f_n > 0)
+    follows = slid != Vec3::Zero() ? 1 - pinned::exp(-slid.norm() / kNormalFollows)
+                                   : 1 - std::min(state->told_N / now.f_n, 1.0);
+  state->told_N = std::max(state->told_N, now.f_n);
   const Vec3 between = u_before + follows * (now.u_n - u_before);
   state->u_n = pack(between.norm() > 0.1 ? Vec3(between.normalized())
                                          : now.u_n);  // where it has turned round
@@ -81,7 +104,7 @@ Squeezed modulateSqueeze(const SqueezeModulation& law, const std::array<Vec3, 2>
   now.contact = true;
   now.l = (p[0] - p[1]) / apart;
   now.F = std::max(0.5 * (f_r[0] - f_r[1]).dot(now.l), 0.0);
-  if (state->d0 == 0) state->d0 = apart + (law.real.k > 0 ? 2 * depthOf(law.real, now.F, 0) : 0);
+  learnBegin(law, apart, now.F, *state);
   now.x = std::max(0.5 * (state->d0 - apart), 0.0);
   const double wanted =
       law.target.constant > 0 ? law.target.constant * now.x : law.target.factor * now.F;

@@ -30,6 +30,7 @@ struct StiffnessModulationState {
   DahlState friction;
   Packed3 u_n{0, 0, 1};  ///< u_s below
   double f_n = 0;        ///< N, |f_r^n| of the last tick; 0: off contact
+  double told_N = 0;     ///< largest f_n that u_s was told by
 };
 static_assert(std::is_trivially_copyable_v<StiffnessModulation> &&
               std::is_trivially_copyable_v<StiffnessModulationState>);
@@ -50,13 +51,14 @@ struct Modulated {
 ///     u_n = (f_r - f_r^t) / |f_r - f_r^t|,   f_n = |f_r - f_r^t|           (10.6)
 ///     x = x0 + H^-1(f_n, x'),   x' = -dp.u_n / dt
 ///     f_d = (k~ x - f_n) u_n                                                (10.4)
-/// by the part of dp that slides over the normal u_s, which follows u_n only while it slides
-/// (within a tenth of a millimetre of it): dp_t (1 - min(1, 0.05 |dp_n| / |dp_t|)), what goes
-/// within 3 degrees of the normal being taken for pressing. With the last u_n for u_s and all of
-/// dp_t, as the source has it, a normal that errs by a degree makes friction out of pressing, and
-/// that makes it err more, up to the whole friction angle, wherever sigma is above the normal
-/// stiffness: in every soft thing. Friction stays the real one. Zero where the reaction is below
-/// `least_contact` or no number. Advances `state`. No allocation, no exception.
+/// by the part of dp that slides over the normal u_s: dp_t (1 - min(1, a |dp_n| / |dp_t|)), what
+/// goes within a = 0.05 + 0.01 N / f_n of the normal being taken for pressing. u_s follows u_n
+/// while it slides (within a tenth of a millimetre of it), and while nothing slides and f_n rises
+/// above all before, as it rises: what is hardly touched tells its normal badly. With the last u_n
+/// for u_s and all of dp_t, as the source has it, a normal that errs by a degree makes friction out
+/// of pressing, and that makes it err more, up to the whole friction angle, wherever sigma is above
+/// the normal stiffness: in every soft thing. Friction stays the real one. Zero where the reaction
+/// is below `least_contact` or no number. Advances `state`. No allocation, no exception.
 Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, const Vec3& dp,
                             double dt, StiffnessModulationState* state) noexcept;
 
@@ -100,10 +102,12 @@ struct SqueezeModulation {
   double weight_factor = 1;    ///< of the real weight
   double least_contact = 0.1;  ///< N, of either reaction
   HuntCrossley real = {};      ///< each side as identified; k = 0: not known
+  double x0 = 0;               ///< m, how far below the surface its contact begins, as identified
 };
 
 struct SqueezeState {
-  double d0 = 0;  ///< m between the tips where both begin to touch; 0: they do not
+  double d0 = 0;      ///< m between the tips where both begin to touch; 0: they do not
+  double weight = 0;  ///< 1/m^2, of what d0 is told by
 };
 static_assert(std::is_trivially_copyable_v<SqueezeModulation> &&
               std::is_trivially_copyable_v<SqueezeState>);
@@ -122,9 +126,9 @@ struct Squeezed {
 ///     F = (f_r1 - f_r2) . l / 2                                (10.12-10.14: equal shares of the
 ///                                                              weight along l cancel)
 ///     x = (d0 - |p1 - p2|) / 2                                 (10.15)
-///     d0 = |p1 - p2| + 2 H^-1(F, 0)                            at the first tick beyond
-///                                                              `least_contact`: a soft thing is
-///                                                              some millimetres deep by then
+///     d0 = mean of |p1 - p2| + 2 (x0 + H^-1(F, 0))             over all ticks since both touch,
+///     weighted by 1/((0.025 N / H'(x))^2 + (0.05 x)^2)         the doubts of force and law; where
+///                                                              none is known: |p1 - p2| at first
 ///     f_w* = f_r* - F u_*
 ///     f_d* = (k~ x - F) u_* + (weight factor - 1) f_w*         (10.11)
 /// Which tool is the first does not matter. Zero where one of them does not touch, or for

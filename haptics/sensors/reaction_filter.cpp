@@ -14,19 +14,22 @@ using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Gain = Eigen::Matrix<double, 6, 2, Eigen::RowMajor>;
 template <int N>
 using Axes = Eigen::Map<Eigen::Matrix<double, N, 3, Eigen::RowMajor>>;
 
 // [chosen], by the errors of stiffness and friction on the finite elements' silicone.
-constexpr double kSnap = 3e7;         // m/s^4: the jerk's step in a tick, over the tick; of M
-constexpr double kSnapOfPlace = 1e5;  // the same of K
-constexpr double kForceRate = 600;    // N/s^2: step of d, likewise
-constexpr double kRise = 0.26;        // 1 - 1/M of the force law with M = 1.35
-constexpr double kSlow_s = 0.03;      // slower motion is left out of the regressions
-constexpr double kForgets_s = 2;      // how long a regression remembers
-constexpr double kLeastMotion = 1e-7, kSteepest = 5000;  // of a regression; the units of c and h
+constexpr double kSnap = 5e4,       // m/s^4: the jerk's step in a tick, over the tick
+    kSnapAlert = 3e7;               // the same where places are not as predicted
+constexpr double kForceRate = 600;  // N/s^2: step of d, likewise
+constexpr double kExplained = 3, kStartling = 2, kAlert_s = 0.05;  // see header: alert
+constexpr double kStick = 500, kSlides = 0.02;                     // N/m; m/s
+constexpr double kSlow_s = 0.06;  // slower motion is left out of the regression
+constexpr double kForgets_s = 2;  // how long it remembers
+constexpr double kLeastMotion = 1e-7, kSteepest = 5000;  // of the regression; units of c
 constexpr double kTouched_N = 0.1;                       // more than that is predicted
-constexpr double kAir_N = 0.01, kAir_s = 0.2, kLate_s = 0.01;
+constexpr double kRise = 0.26;                           // 1 - 1/M of the force law with M = 1.35
+constexpr double kAir_N = 0.01, kAir_s = 0.1, kLate_s = 0.02;
 constexpr double kSpeedNoise = 5e-3;  // m/s, of the difference of two velocities
 constexpr int kBlock = 50;            // ticks
 constexpr double kBiasWalk = 1e-3;    // N/sqrt(s): a sensor that warms up
@@ -42,15 +45,12 @@ Eigen::Matrix<double, N, N> chain(double dt) {
   return F;
 }
 
-/// A filter that has settled: its gain K = P H' (H P H' + R)^-1, P predicted, and P corrected.
+/// The gain of a filter that has settled: K = P H' (H P H' + R)^-1, P predicted.
 template <int N, int M>
-struct Settled {
-  Eigen::Matrix<double, N, M> gain;
-  Eigen::Matrix<double, N, N> P;
-};
-template <int N, int M>
-Settled<N, M> settle(const Eigen::Matrix<double, N, N>& F, const Eigen::Matrix<double, M, N>& H,
-                     const Eigen::Matrix<double, N, 1>& q, const Eigen::Matrix<double, M, 1>& r) {
+Eigen::Matrix<double, N, M> settledGain(const Eigen::Matrix<double, N, N>& F,
+                                        const Eigen::Matrix<double, M, N>& H,
+                                        const Eigen::Matrix<double, N, 1>& q,
+                                        const Eigen::Matrix<double, M, 1>& r) {
   using Cov = Eigen::Matrix<double, N, N>;
   Cov P = Cov::Identity();
   Eigen::Matrix<double, N, M> K = Eigen::Matrix<double, N, M>::Zero();
@@ -64,7 +64,7 @@ Settled<N, M> settle(const Eigen::Matrix<double, N, N>& F, const Eigen::Matrix<d
     P = keeps * P * keeps.transpose() +
         K * Eigen::Matrix<double, M, M>(r.cwiseAbs2().asDiagonal()) * K.transpose();
   }
-  return {K, P};
+  return K;
 }
 
 Mat6 reactionChain(double dt) {
@@ -72,13 +72,6 @@ Mat6 reactionChain(double dt) {
   F.topLeftCorner<4, 4>() = chain<4>(dt);
   F(4, 5) = dt;
   return F;
-}
-
-/// Slope of y over x of late, without a constant, by the sums of their products.
-double slope(double xy, double xx, double keeps, double& sum_xy, double& sum_xx) noexcept {
-  sum_xy = keeps * sum_xy + xy;
-  sum_xx = keeps * sum_xx + xx;
-  return std::clamp(sum_xy / (sum_xx + kLeastMotion), 0.0, kSteepest);
 }
 
 }  // namespace
@@ -98,14 +91,13 @@ ReactionFilter::ReactionFilter(const ReactionSettings& settings) : settings_(set
   Vec6 q = Vec6::Zero();
   q[3] = kSnap * dt;
   q[5] = kForceRate * dt;
-  const Settled<6, 2> settled =
-      settle<6, 2>(F, H, q, Eigen::Vector2d(settings.place_m, settings.noise_N));
-  Eigen::Map<Eigen::Matrix<double, 6, 2, Eigen::RowMajor>>(gain_.data()) = settled.gain;
-  noise_N_ = std::sqrt(3 * settled.P(4, 4));
+  const Eigen::Vector2d noise(settings.place_m, settings.noise_N);
+  Eigen::Map<Gain>(calm_gain_.data()) = settledGain<6, 2>(F, H, q, noise);
+  q[3] = kSnapAlert * dt;
+  Eigen::Map<Gain>(alert_gain_.data()) = settledGain<6, 2>(F, H, q, noise);
   Eigen::Map<Vec4>(place_gain_.data()) =
-      settle<4, 1>(chain<4>(dt), Eigen::RowVector4d(1, 0, 0, 0), Vec4(0, 0, 0, kSnapOfPlace * dt),
-                   Eigen::Matrix<double, 1, 1>(settings.place_m))
-          .gain;
+      settledGain<4, 1>(chain<4>(dt), Eigen::RowVector4d(1, 0, 0, 0), Vec4(0, 0, 0, kSnap * dt),
+                        Eigen::Matrix<double, 1, 1>(settings.place_m));
 }
 
 /// One tick's work.
@@ -115,18 +107,19 @@ struct ReactionStep {
   ReactionState& state;
   const double dt = 1 / of.rate_Hz;
   Axes<6> x{state.x.data()};
-  Axes<4> k{state.k.data()}, m{state.m.data()};
+  Axes<4> k{state.k.data()};
 
   void begin(const Vec3& p_M, const Vec3& p_K, const Vec3& s) noexcept {
     state.x = {};
-    state.k = state.m = {};
-    x.row(0) = m.row(0) = p_M;
+    state.k = {};
+    x.row(0) = p_M;
     x.row(4) = s;
     k.row(0) = p_K;
     state.f_slow = pack(s);
     state.k_slow = pack(p_K);
-    state.c = state.h = state.f_late = 0;
-    state.xy = state.xx = {};
+    state.f_late = pack(s);
+    state.c = state.xy = state.xx = 0;
+    state.alert = 1;
     if (state.load_P[0] == 0) {
       const double bias = of.bias_sd_N, mass = of.mass_sd * of.tool.mass;
       Eigen::Map<Mat4>(state.load_P.data()) =
@@ -145,8 +138,9 @@ struct ReactionStep {
     const Vec3 f = x.row(4), v = k.row(1);
     const double size = f.norm();
     if (size < kTouched_N) return Vec3::Zero();
-    const Vec3 u = f / size, along = v.dot(u) * u;
-    return -state.c * pinned::pow(size, kRise) * along - state.h * (v - along);
+    const Vec3 u = f / size, along = v.dot(u) * u, across = v - along;
+    return -state.c * pinned::pow(size, kRise) * along -
+           kStick / (1 + across.squaredNorm() / (kSlides * kSlides)) * across;
   }
 
   void predict() noexcept {
@@ -155,26 +149,25 @@ struct ReactionStep {
     const Eigen::Map<const Mat6> F(filter.F_.data());
     x.noalias() = F * before;
     x.row(4) += dt * change.transpose();
-    for (Axes<4>* const each : {&k, &m}) {
-      const Eigen::Matrix<double, 4, 3> was = *each;
-      each->noalias() = F.topLeftCorner<4, 4>() * was;
-    }
+    const Eigen::Matrix<double, 4, 3> was = k;
+    k.noalias() = F.topLeftCorner<4, 4>() * was;
   }
 
   void correct(const Vec3& p_M, const Vec3& p_K, const Vec3& s) noexcept {
-    const Eigen::Map<const Eigen::Matrix<double, 6, 2, Eigen::RowMajor>> gain(filter.gain_.data());
+    const Eigen::Map<const Gain> calm(filter.calm_gain_.data()), alert(filter.alert_gain_.data());
     Eigen::Matrix<double, 2, 3> off;
     off.row(0) = p_M.transpose() - x.row(0);
     off.row(1) = s.transpose() - (x.row(4) - mass() * x.row(2));
-    x += gain * off;
-    const Eigen::RowVector3d k_off = p_K.transpose() - k.row(0), m_off = p_M.transpose() - m.row(0);
-    const Eigen::Map<const Vec4> place_gain(filter.place_gain_.data());
-    k += place_gain * k_off;
-    m += place_gain * m_off;
+    const double missed = off.row(0).squaredNorm() / (3 * of.place_m * of.place_m),
+                 startled = std::clamp((missed - kExplained) / kStartling, 0.0, 1.0);
+    state.alert = std::max(startled, state.alert * (1 - dt / kAlert_s));
+    x += (calm + state.alert * (alert - calm)) * off;
+    const Eigen::RowVector3d k_off = p_K.transpose() - k.row(0);
+    k += Eigen::Map<const Vec4>(filter.place_gain_.data()) * k_off;
   }
 
   /// `f`: the reaction of this tick alone.
-  void learnRises(const Vec3& f) noexcept {
+  void learnRise(const Vec3& f) noexcept {
     const double follows = dt / kSlow_s, keeps = 1 - dt / kForgets_s;
     Vec3 f_slow = unpack(state.f_slow), k_slow = unpack(state.k_slow);
     f_slow += follows * (f - f_slow);
@@ -185,10 +178,10 @@ struct ReactionStep {
     const double size = now.norm();
     if (size < kTouched_N) return;  // what was touched last will be touched next
     const Vec3 u = now / size, df = f - f_slow, dp = k_slow - Vec3(k.row(0));
-    const Vec3 across = dp - dp.dot(u) * u;
     const double pressed = pinned::pow(size, kRise) * dp.dot(u);
-    state.c = slope(pressed * df.dot(u), pressed * pressed, keeps, state.xy[0], state.xx[0]);
-    state.h = slope(across.dot(df), across.squaredNorm(), keeps, state.xy[1], state.xx[1]);
+    state.xy = keeps * state.xy + pressed * df.dot(u);
+    state.xx = keeps * state.xx + pressed * pressed;
+    state.c = std::clamp(state.xy / (state.xx + kLeastMotion), 0.0, kSteepest);
   }
 
   /// In the air, where no more is left of late than the doubts of b and m explain, block by block:
@@ -198,8 +191,10 @@ struct ReactionStep {
     Eigen::Matrix<double, 3, 4> rows;
     rows << R_WS, g;
     const double doubt = std::sqrt((rows * P * rows.transpose()).trace());
-    state.f_late += dt / kLate_s * (Vec3(x.row(4)).norm() - state.f_late);
-    const bool air = state.f_late < kAir_N + 2 * (doubt + filter.noise_N_);
+    Vec3 f_late = unpack(state.f_late);
+    f_late += dt / kLate_s * (Vec3(x.row(4)) - f_late);
+    state.f_late = pack(f_late);
+    const bool air = f_late.norm() < kAir_N + 2 * doubt;
     state.quiet = air ? std::min(state.quiet + 1, kLongQuiet) : 0;
     if (state.quiet * dt < kAir_s) {
       state.block = 0;
@@ -209,13 +204,13 @@ struct ReactionStep {
     if (state.block == 0) {
       turns.setZero();
       state.shown_sum = {};
-      state.v_first = pack(Vec3(m.row(1)));
+      state.v_first = pack(Vec3(x.row(1)));
     }
     turns += R_WS;
     state.shown_sum = pack(Vec3(unpack(state.shown_sum) + s));
     if (++state.block < kBlock) return;
     state.block = 0;
-    const Vec3 a = (Vec3(m.row(1)) - unpack(state.v_first)) / (kBlock * dt);
+    const Vec3 a = (Vec3(x.row(1)) - unpack(state.v_first)) / (kBlock * dt);
     rows << turns / kBlock, g - a;
     learn(rows, unpack(state.shown_sum) / kBlock + mass() * a);
   }
@@ -258,7 +253,7 @@ Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSa
   if (state.seen == 0) tick.begin(p_M, p_K, s);
   tick.predict();
   tick.correct(p_M, p_K, s);
-  tick.learnRises(s + tick.mass() * Vec3(tick.m.row(2)));
+  tick.learnRise(s + tick.mass() * Vec3(tick.x.row(2)));
   tick.learnLoad(R_WS, s, g);
   if (!finite(state.x) || !finite(state.k) || !finite(state.load)) {  // beyond all numbers
     state = {};

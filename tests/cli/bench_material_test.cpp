@@ -70,7 +70,7 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_EQ(valuesOf(lines, "stiffness_rel_error").size(), 12u);
   EXPECT_LE(worst(lines, "stiffness_rel_error"), 0.06);
   EXPECT_EQ(valuesOf(lines, "squeeze_rel_error").size(), 6u);
-  EXPECT_LE(worst(lines, "squeeze_rel_error"), 0.06);
+  EXPECT_LE(worst(lines, "squeeze_rel_error"), 0.02);
   EXPECT_LE(worst(lines, "friction_rel_error"), 0.07);
   expectLumps(lines, 1);
   expectLumps(lines, 2);
@@ -89,6 +89,13 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_EQ(valuesOf(cleared, "stiffness_rel_error").size(), 12u);
   EXPECT_LE(worst(cleared, "stiffness_rel_error"), 0.07) << "with realistic noise, too";
   EXPECT_LE(worst(cleared, "friction_rel_error"), 0.07);
+  EXPECT_EQ(valuesOf(cleared, "squeeze_rel_error").size(), 6u);
+  EXPECT_LE(worst(cleared, "squeeze_rel_error"), 0.07);
+  expectLumps(cleared, 1);
+  expectLumps(cleared, 2);
+  EXPECT_EQ(valuesOf(cleared, "hand_still_mm_s").size(), 26u);
+  EXPECT_LE(worst(cleared, "hand_still_mm_s"), 2);
+  EXPECT_LE(worst(cleared, "hand_gained_mJ"), 0.1);
 }
 
 }  // namespace

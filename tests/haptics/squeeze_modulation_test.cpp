@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "anatomy/base/random.h"
 #include "tests/support/allocation_count.h"
 
 namespace palpa::haptics {
@@ -79,6 +80,27 @@ TEST(SqueezeModulation, BeginsWhereTheSurfacesAreNotWhereTheyAreFelt) {
   }
   EXPECT_NEAR(now.x, 0.006, 2e-5);
   EXPECT_NEAR(state.d0, kWidth, 2e-5);
+}
+
+/// Of a soft thing that is hardly touched the force says little of how deep it is pressed: what
+/// comes later says it better.
+TEST(SqueezeModulation, TheNoiseOfTheFirstTouchIsForgotten) {
+  SqueezeModulation law;
+  law.real = {600, 0, 1.35};
+  law.x0 = 3e-4;
+  SqueezeState state;
+  RandomStream noise(7, "squeeze");
+  double at_first = 0, now = 0;
+  for (int i = 1; i < 700; ++i) {
+    const double depth = 1e-5 * i, F = forceOf(law.real, depth - law.x0, 0) + 0.02 * noise.normal();
+    Held h = held(depth, 0, 0);
+    for (Vec3& f : h.f_r) f = std::max(F, 0.0) * f.normalized();
+    const Squeezed s = modulateSqueeze(law, h.f_r, h.p, &state);
+    now = std::abs(s.x - depth);
+    if (s.contact && at_first == 0) at_first = now;
+  }
+  EXPECT_GT(at_first, 2e-4);
+  EXPECT_LT(now, 0.2 * at_first);
 }
 
 TEST(SqueezeModulation, HeavierAndLighter) {

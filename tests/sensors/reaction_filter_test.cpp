@@ -160,6 +160,30 @@ TEST_F(Touched, WhatIsNotFiniteDoesNotStay) {
   EXPECT_LT(off(100, [](double) { return Vec3(Vec3::Zero()); }), 0.1);
 }
 
+/// Where a tool rings on what it sticks to, its inertia hides the spring from the sensor.
+TEST(ReactionFilter, ASpringThatTheToolsInertiaHidesIsSeen) {
+  ReactionSettings settings;
+  settings.tool.mass = 0.03;
+  const ReactionFilter filter(settings);
+  constexpr double kAmplitude = 2e-5, kSpring = 1000;  // m, N/m
+  const double omega = 2 * M_PI * 25, inertia = settings.tool.mass * omega * omega;
+  ASSERT_LT(std::abs(kSpring - inertia), 0.3 * kSpring) << "hidden";
+  ReactionState state;
+  double off = 0, of = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double x = kAmplitude * std::sin(omega * 1e-3 * i);
+    WrenchSample sample;
+    sample.f_S = pack(Vec3((inertia - kSpring) * x, 0, 1 - settings.tool.mass * 9.80665));
+    PackedPose X_WS;
+    X_WS.p[0] = x;
+    const Reaction now = step(filter, state, sample, X_WS, 1'000'000LL * i);
+    if (i < 2000) continue;
+    off += std::pow(now.f_W[0] + kSpring * x, 2);
+    of += std::pow(kSpring * x, 2);
+  }
+  EXPECT_LT(std::sqrt(off / of), 0.65) << "1.3 where nothing predicts it";
+}
+
 TEST(ReactionFilterSettings, ThatMakeNoSenseAreRefused) {
   ReactionSettings settings;
   settings.tool.mass = 0.03;
