@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # slurm.sh PROGRAM [SEEDS]: the same campaign of short sessions, four a seed (default 2 seeds;
-# PALPA_FULL=1: 250), by one process and through Slurm on this computer. The table is the same to
-# the byte; a cancelled array goes on with what is missing, and computes nothing twice.
+# PALPA_FULL=1: 250), by one process and through Slurm on this computer; with more than two seeds by
+# two processes, too. The table is the same to the byte; a cancelled array goes on with what is
+# missing, and computes nothing twice.
 # Its own munged, slurmctld and slurmd run in a folder of their own, as this user. Without the
 # programs (Debian: slurmctld slurmd slurm-client munge): skipped, code 77.
 set -uo pipefail
@@ -109,6 +110,10 @@ cat >"$work/campaign.json" <<JSON
 JSON
 campaign() { "$palpa" campaign "$work/campaign.json" --keep table --quiet "$@"; }
 campaign --out "$work/one" --jobs 1 >"$work/one.txt" || fail "one process: $(cat "$work/one.txt")"
+if [ "$seeds" -gt 2 ]; then
+  campaign --out "$work/two" --jobs 2 >"$work/two.txt" || fail "two: $(cat "$work/two.txt")"
+  cmp "$work/one/trials.csv" "$work/two/trials.csv" || fail "two processes give another table"
+fi
 
 parts=$((sessions < 8 ? sessions : 8))
 campaign --out "$work/many" --slurm $parts >"$work/campaign.sbatch" || fail "no script"
