@@ -251,7 +251,8 @@ Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSa
   if (!usable) return now;
   const Vec3 s = R_WS * (unpack(sample.f_S) - tick.bias()) - tick.mass() * g;
   if (state.seen == 0) tick.begin(p_M, p_K, s);
-  tick.predict();
+  const int ticks = state.seen == 0 ? 1 : std::max(1, static_cast<int>(std::lround(periods)));
+  for (int i = 0; i < ticks; ++i) tick.predict();  // what was missed, too
   tick.correct(p_M, p_K, s);
   tick.learnRise(s + tick.mass() * Vec3(tick.x.row(2)));
   tick.learnLoad(R_WS, s, g);

@@ -143,6 +143,16 @@ TEST_F(Touched, AGapBeginsAnewAndAMissedTickDoesNot) {
   EXPECT_FALSE(tick(Vec3::Zero()).valid);
 }
 
+TEST_F(Touched, WhereEverySecondTickIsMissingItIsHardlyWorse) {
+  wait(3000);
+  skipped_ = 1;
+  const auto beat = [](double t) {
+    return Vec3(Vec3(0.8, 0.4, 4) * (1 - std::cos(2 * M_PI * 4 * t)));
+  };
+  off(500, beat);
+  EXPECT_LT(off(1000, beat), 0.3) << "of 5 N";
+}
+
 TEST_F(Touched, WhatIsNotFiniteDoesNotStay) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   wait(100);
