@@ -176,7 +176,7 @@ TEST_F(Rehearsing, WhoSeesNoPicturesHasLongerToBecomeReady) {
     for (int i = 0; i < 100 * seconds; ++i, now += 10 * runtime::kMillisecond) automatic.step(now);
   };
   EXPECT_NO_THROW(wait(20));
-  channels.frames += 60;
+  channels.frames += 450;
   EXPECT_THROW(wait(1), Error);
 }
 
