@@ -189,10 +189,6 @@ std::array<double, 2> settledDepths(const twin::PhantomTable& side, double sum, 
   return {low, sum - low};
 }
 
-}  // namespace
-
-namespace {
-
 /// Two tools and the object between them, and what truly is at a time.
 struct Held {
   std::array<Vec3, 2> p, f_r;  ///< m; N, the object's reaction
