@@ -91,9 +91,14 @@ export class Educator {
     return this.browser.close();
   }
 
+  /** The page asked for stands, not the one before it, whose heading would do as well. */
   async go(hash, page = this.page) {
+    if (page.url() !== this.base + hash)
+      await page.evaluate(() => {
+        for (const old of document.querySelectorAll("main .page")) old.dataset.left = "yes";
+      });
     await page.goto(this.base + hash);
-    await page.locator("main h1").waitFor();
+    await page.locator("main .page:not([data-left]) h1").waitFor();
   }
 
   /**
