@@ -71,9 +71,10 @@ class Feeling {
  public:
   explicit Feeling(const station::Station& station)
       : station_(station),
-        filter_(station.force_sensor->filter),
         radius_(station.sample->tip_radius),
         X_PW_(station.sample->X_WP.inverse()) {
+    filter_.tool = station.force_sensor->tool;
+    filter_.bias = station.force_sensor->bias;
     filter_.motion.rate_Hz = runtime::kFeltRate_Hz;
     filter_.low_pass = haptics::butterworth(kCutOff_Hz, runtime::kFeltRate_Hz);
     filter_.p_SK =

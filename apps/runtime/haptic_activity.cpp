@@ -5,27 +5,49 @@
 
 namespace palpa::runtime {
 
+ForceSensing::Touch ForceSensing::touched(const haptics::WrenchFilter& filter,
+                                          const haptics::WrenchSample& sample, const Pose& X_WS,
+                                          std::int64_t t_ns) noexcept {
+  const haptics::ContactWrench told = haptics::step(filter, low_passed_, sample, pack(X_WS), t_ns);
+  return {X_WS.linear() * unpack(told.contact.f_S), told.p_WK, told.valid, low_passed_.held != 0};
+}
+
+/// A step is a reading's: the loop may ask more often than the device speaks.
+ForceSensing::Touch ForceSensing::touched(const haptics::ReactionFilter& filter,
+                                          const haptics::WrenchSample& sample, const Pose& X_WS,
+                                          std::int64_t t_ns) noexcept {
+  const bool well = !(sample.flags & haptics::kUnusable) && haptics::finite(sample.f_S);
+  if (well && predicted_.seen > 0 && t_ns == predicted_.t_ns)
+    return {Vec3::Zero(), {}, false, true};
+  const haptics::Reaction told = haptics::step(filter, predicted_, sample, pack(X_WS), t_ns);
+  return {unpack(told.f_W), told.p_WK, told.valid, well};
+}
+
 haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading,
                                          std::int64_t now_ns) noexcept {
   haptics::SensedForce sensed;
   sensed.state = haptics::SensorState::unusable;
   const haptics::WrenchSample sample = sensor_.read(now_ns);
   if (!reading.homed) {  // nobody knows which way is down
-    state_ = {};
+    low_passed_ = {};
+    predicted_ = {};
     last_ns_ = -kGoodFor_ns - 1;
     return sensed;
   }
   const Quat q_DE = unpack(reading.q_DE).normalized();
   const Pose X_DS = makePose(q_DE.toRotationMatrix(), unpack(reading.p_DE)) * setup_.X_ES;
-  const haptics::ContactWrench contact =
-      haptics::step(setup_.filter, state_, sample, pack(Pose(setup_.X_WD * X_DS)), reading.t_ns);
-  if (!state_.held)
-    last_ns_ =
-        -kGoodFor_ns - 1;  // the sensor is not well: what it said before is no word for after
-  if (!contact.valid) return now_ns - last_ns_ <= kGoodFor_ns ? last_ : sensed;
+  const Pose X_WS = setup_.X_WD * X_DS;
+  const auto told_by = [&](const auto& filter) {
+    return touched(filter, sample, X_WS, reading.t_ns);
+  };
+  const haptics::WrenchFilter* const low_pass = std::get_if<haptics::WrenchFilter>(&setup_.filter);
+  const Touch touch = low_pass ? told_by(*low_pass)
+                               : told_by(*std::get_if<haptics::ReactionFilter>(&setup_.filter));
+  if (!touch.well) last_ns_ = -kGoodFor_ns - 1;  // what it said before is no word for after
+  if (!touch.valid) return now_ns - last_ns_ <= kGoodFor_ns ? last_ : sensed;
   sensed.state = haptics::SensorState::valid;
-  sensed.f_D = pack(Vec3(X_DS.linear() * unpack(contact.contact.f_S)));
-  sensed.p_DK = pack(Vec3(setup_.X_WD.inverse() * unpack(contact.p_WK)));
+  sensed.f_D = pack(Vec3(setup_.X_WD.linear().transpose() * touch.f_W));
+  sensed.p_DK = pack(Vec3(setup_.X_WD.inverse() * unpack(touch.p_WK)));
   last_ = sensed;
   last_ns_ = now_ns;
   return sensed;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <variant>
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
@@ -10,6 +11,7 @@
 #include "haptics/flight_record.h"
 #include "haptics/loop/tick_config.h"
 #include "haptics/loop/tick_state.h"
+#include "haptics/sensors/reaction_filter.h"
 #include "haptics/sensors/wrench_filter.h"
 #include "haptics/surface/floor.h"
 
@@ -26,19 +28,19 @@ class FloorSource {
 
 /// Of a force sensor on the tool.
 struct ForceSensingSetup {
-  /// Its motion at the device's rate, its low-pass at the loop's; K: the tool's tip, or a round
-  /// tip's middle
-  haptics::WrenchFilter filter;
+  /// A low-pass at the loop's rate, its motion at the device's; or a Kalman filter at the device's.
+  /// K: the tool's tip, or a round tip's middle
+  std::variant<haptics::WrenchFilter, haptics::ReactionFilter> filter;
   Pose X_WD = Pose::Identity();  ///< which way is down
   Pose X_ES = Pose::Identity();  ///< the sensor on the end effector
 };
 
 /// A force sensor on the tool, read in the haptic thread: its newest sample, cleared of bias, tool
-/// and noise (WrenchFilter), as the force of a real object on the tool, in D. The tool's motion is
-/// that of the device's readings at their own times, however often the loop asks; unusable until
-/// the device is homed. After a gap in the readings the motion takes three of them to be known
-/// again: so long the last force holds, but no longer than `kGoodFor_ns` and only while the sensor
-/// itself is well. Never allocates, never throws.
+/// and noise, as the force of a real object on the tool, in D. The tool's motion is that of the
+/// device's readings at their own times, however often the loop asks; unusable until the device is
+/// homed. Between readings, and after a gap in them until the motion is known again, the last force
+/// holds, but no longer than `kGoodFor_ns` and only while the sensor itself is well. Never
+/// allocates, never throws.
 class ForceSensing {
  public:
   static constexpr std::int64_t kGoodFor_ns = 10'000'000;  ///< as old as a sample may be
@@ -49,9 +51,22 @@ class ForceSensing {
   haptics::SensedForce sense(const haptics::DeviceReading& reading, std::int64_t now_ns) noexcept;
 
  private:
+  /// What touches the tool, by whichever filter.
+  struct Touch {
+    Vec3 f_W;
+    Packed3 p_WK;
+    bool valid = false;  ///< known at this very tick
+    bool well = false;   ///< of the sensor
+  };
+  Touch touched(const haptics::WrenchFilter& filter, const haptics::WrenchSample& sample,
+                const Pose& X_WS, std::int64_t t_ns) noexcept;
+  Touch touched(const haptics::ReactionFilter& filter, const haptics::WrenchSample& sample,
+                const Pose& X_WS, std::int64_t t_ns) noexcept;
+
   haptics::ForceSensor& sensor_;
   ForceSensingSetup setup_;
-  haptics::WrenchFilterState state_;
+  haptics::WrenchFilterState low_passed_;
+  haptics::ReactionState predicted_;
   haptics::SensedForce last_;  // valid
   std::int64_t last_ns_ = -kGoodFor_ns - 1;
 };

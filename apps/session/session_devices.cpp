@@ -1,5 +1,7 @@
 #include "apps/session/session_devices.h"
 
+#include <cmath>
+
 #include "anatomy/base/counted.h"
 #include "apps/record/session_file.h"
 #include "apps/trial/trial_status.h"
@@ -137,10 +139,23 @@ void SessionDevices::openSensor(const SessionOptions& options, double tip_radius
 runtime::ForceSensingSetup SessionDevices::sensingSetup(double rate_Hz, double tip_radius,
                                                         const Pose& X_WD) const {
   const ForceSensorSetup& setup = *station_.force_sensor;
-  runtime::ForceSensingSetup sensing{.filter = setup.filter, .X_WD = X_WD, .X_ES = setup.X_ES};
-  sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, rate_Hz);
-  sensing.filter.p_SK =
-      pack(Vec3(setup.X_ES.inverse() * (station_.X_ET * Vec3(0, 0, -tip_radius))));
+  const Vec3 p_EK = station_.X_ET * Vec3(0, 0, -tip_radius);
+  const Packed3 p_SK = pack(Vec3(setup.X_ES.inverse() * p_EK));
+  runtime::ForceSensingSetup sensing{{}, X_WD, setup.X_ES};
+  if (setup.noise_N) {
+    haptics::ReactionSettings known;
+    known.noise_N = *setup.noise_N;
+    const double step = std::hypot(station_.device.capabilities.position_resolution,
+                                   station_.device.angle_resolution * p_EK.norm());
+    if (step > 0) known.place_m = step / std::sqrt(12.0);
+    known.tool = setup.tool;
+    known.bias_N = setup.bias.f_S;
+    known.p_SK = p_SK;
+    sensing.filter = haptics::ReactionFilter(known);
+  } else {
+    sensing.filter = haptics::WrenchFilter{
+        haptics::butterworth(setup.cutoff_Hz, rate_Hz), {}, setup.tool, setup.bias, p_SK};
+  }
   return sensing;
 }
 

@@ -22,11 +22,11 @@ Packed3 packedAt(const CalibrationFile& file, const std::string& name) {
   return {v[0], v[1], v[2]};
 }
 
-void applyTo(haptics::WrenchFilter& filter, const CalibrationFile& file) {
-  filter.bias.f_S = packedAt(file, "bias_force_N");
-  filter.bias.tau_S = packedAt(file, "bias_torque_Nm");
-  filter.tool.mass = file.at("tool_mass_kg", 1)[0];
-  filter.tool.p_SM = packedAt(file, "tool_centre_m");
+void applyTo(ForceSensorSetup& sensor, const CalibrationFile& file) {
+  sensor.bias.f_S = packedAt(file, "bias_force_N");
+  sensor.bias.tau_S = packedAt(file, "bias_torque_Nm");
+  sensor.tool.mass = file.at("tool_mass_kg", 1)[0];
+  sensor.tool.p_SM = packedAt(file, "tool_centre_m");
 }
 
 haptics::WorkspaceCorrection correctionIn(const CalibrationFile& file) {
@@ -136,8 +136,7 @@ void applyCalibrations(Station& s) {
     if (kind == CalibrationKind::workspace) s.workspace = correctionIn(c.file);
     if (kind == CalibrationKind::tool) s.X_ET = poseAt(c.file, "X_ET");
     if (kind == CalibrationKind::registration) s.X_WD = poseAt(c.file, "X_WD");
-    if (kind == CalibrationKind::force_sensor && s.force_sensor)
-      applyTo(s.force_sensor->filter, c.file);
+    if (kind == CalibrationKind::force_sensor && s.force_sensor) applyTo(*s.force_sensor, c.file);
     if (kind == CalibrationKind::latency) s.camera_latency_s = c.file.at("camera_latency_s", 1)[0];
   }
   const std::string fault = faultOf(s.calibrations, s.id);

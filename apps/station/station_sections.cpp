@@ -76,6 +76,9 @@ DeviceSetup readDevice(const JsonFile& file, const std::filesystem::path& folder
         file.number("device/continuous_force_N", 0.05, device.capabilities.max_force_N);
     device.thermal_tau = file.number("device/thermal_tau_s", 0.1, 3600);
   }
+  if (file.has("device/angle_resolution_deg"))
+    device.angle_resolution =
+        file.number("device/angle_resolution_deg", 0, 5) * (std::numbers::pi / 180);
   device.plunger_button = readButton(file, "device/plunger_button");
   return device;
 }
@@ -90,11 +93,18 @@ std::optional<ForceSensorSetup> readForceSensor(const JsonFile& file) {
   can.max_force_N = readPacked(file, "force_sensor/max_force_N", 1);
   can.simulated = sensor.driver == ForceSensorDriver::bench;
   sensor.X_ES = readPose(file, "force_sensor/X_ES");
-  sensor.cutoff_Hz = file.number("force_sensor/cutoff_Hz", 1, 400);
-  sensor.filter.tool.mass = 1e-3 * file.number("force_sensor/tool/mass_g", 0, 5000);
-  sensor.filter.tool.p_SM = readPacked(file, "force_sensor/tool/centre_mm", kMm);
-  sensor.filter.bias.f_S = readPacked(file, "force_sensor/bias/force_N", 1);
-  sensor.filter.bias.tau_S = readPacked(file, "force_sensor/bias/torque_Nm", 1);
+  if (file.has("force_sensor/noise_N")) {
+    if (file.has("force_sensor/cutoff_Hz"))
+      file.refuse("force_sensor/cutoff_Hz",
+                  "is of a low-pass, but noise_N asks for a Kalman filter: state one of the two");
+    sensor.noise_N = file.number("force_sensor/noise_N", 1e-4, 1);
+  } else {
+    sensor.cutoff_Hz = file.number("force_sensor/cutoff_Hz", 1, 400);
+  }
+  sensor.tool.mass = 1e-3 * file.number("force_sensor/tool/mass_g", 0, 5000);
+  sensor.tool.p_SM = readPacked(file, "force_sensor/tool/centre_mm", kMm);
+  sensor.bias.f_S = readPacked(file, "force_sensor/bias/force_N", 1);
+  sensor.bias.tau_S = readPacked(file, "force_sensor/bias/torque_Nm", 1);
   return sensor;
 }
 

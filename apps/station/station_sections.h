@@ -11,7 +11,7 @@
 #include "ar/boards/board.h"
 #include "haptics/device.h"
 #include "haptics/sensors/net_ft_sensor.h"
-#include "haptics/sensors/wrench_filter.h"
+#include "haptics/sensors/tool_load.h"
 
 namespace palpa::station {
 
@@ -23,6 +23,7 @@ enum class DeviceDriver { bench, falcon, mouse, replay };
 struct DeviceSetup {
   DeviceDriver driver = DeviceDriver::bench;
   haptics::DeviceCapabilities capabilities;
+  double angle_resolution = 0;      ///< rad, of its gimbal's encoders; 0: not known
   double continuous_force_N = 0;    ///< what its drives bear for long; 0: not known
   double thermal_tau = 60;          ///< s
   std::filesystem::path firmware;   ///< falcon: its maker's file; empty: it must be running
@@ -42,9 +43,11 @@ enum class ForceSensorDriver { bench, net_ft };
 struct ForceSensorSetup {
   ForceSensorDriver driver = ForceSensorDriver::bench;
   haptics::NetFtSettings net_ft;  ///< its capabilities hold for every driver
-  /// bias and tool, as calibrated; its rate and low-pass are the loop's to set
-  haptics::WrenchFilter filter;
-  double cutoff_Hz = 100;
+  haptics::ToolLoad tool;         ///< that it carries, and
+  haptics::Wrench bias;           ///< what it shows with nothing on it: as calibrated
+  double cutoff_Hz = 100;         ///< of the low-pass that takes noise away; not used where
+  /// the standard deviation of a sample's force is known: a Kalman filter does it
+  std::optional<double> noise_N;
   Pose X_ES = Pose::Identity();  ///< the sensor on the end effector
 };
 

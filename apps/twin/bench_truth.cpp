@@ -94,10 +94,10 @@ SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
   const double centre = kMm * file.number("twin/force_sensor/centre_spread_mm", 0, 50);
   const double bias = file.number("twin/force_sensor/bias_spread_N", 0, 5);
   const double bias_Nm = file.number("twin/force_sensor/bias_spread_Nm", 0, 1);
-  truth.tool_mass = believed.filter.tool.mass * (1 + mass * random.normal());
-  truth.p_SM = pack(Vec3(unpack(believed.filter.tool.p_SM) + centre * normal3(random)));
-  truth.bias_N = pack(Vec3(unpack(believed.filter.bias.f_S) + bias * normal3(random)));
-  truth.bias_Nm = pack(Vec3(unpack(believed.filter.bias.tau_S) + bias_Nm * normal3(random)));
+  truth.tool_mass = believed.tool.mass * (1 + mass * random.normal());
+  truth.p_SM = pack(Vec3(unpack(believed.tool.p_SM) + centre * normal3(random)));
+  truth.bias_N = pack(Vec3(unpack(believed.bias.f_S) + bias * normal3(random)));
+  truth.bias_Nm = pack(Vec3(unpack(believed.bias.tau_S) + bias_Nm * normal3(random)));
   truth.noise_N = file.number("twin/force_sensor/noise_N", 0, 1);
   truth.noise_Nm = file.number("twin/force_sensor/noise_Nm", 0, 1);
   truth.max_force_N = believed.net_ft.capabilities.max_force_N;

@@ -156,7 +156,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
     if (!sensor) return tool;
     tool.sensor_truth = trueSensor(station, seed);
     tool.X_ES = station.force_sensor->X_ES;
-    tool.zero = station.force_sensor->filter.bias;
+    tool.zero = station.force_sensor->bias;
     return tool;
   }
 

@@ -33,6 +33,7 @@ constexpr double kAir_N = 0.01, kAir_s = 0.1, kLate_s = 0.02;
 constexpr double kSpeedNoise = 5e-3;  // m/s, of the difference of two velocities
 constexpr int kBlock = 50;            // ticks
 constexpr double kBiasWalk = 1e-3;    // N/sqrt(s): a sensor that warms up
+constexpr double kLongestGap = 10;    // ticks
 constexpr std::int32_t kSettling = 30, kLongQuiet = 1 << 30;  // ticks
 
 template <int N>
@@ -247,7 +248,7 @@ Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSa
   const bool usable = !(sample.flags & kUnusable) && finite(sample.f_S);
   const double periods = static_cast<double>(t_ns - state.t_ns) * 1e-9 * tick.of.rate_Hz;
   state.t_ns = t_ns;
-  if (!usable || periods < 0 || periods > 4) state.seen = state.quiet = 0;
+  if (!usable || periods < 0 || periods > kLongestGap) state.seen = state.quiet = 0;
   if (!usable) return now;
   const Vec3 s = R_WS * (unpack(sample.f_S) - tick.bias()) - tick.mass() * g;
   if (state.seen == 0) tick.begin(p_M, p_K, s);

@@ -97,7 +97,7 @@ struct Reaction {
 };
 
 /// One tick: `sample` and the pose of S in W, both of time `t_ns`. After an unusable or not finite
-/// input, or a gap of over four periods, it begins anew. No allocation, no exception.
+/// input, or a gap of over ten periods, it begins anew. No allocation, no exception.
 Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSample& sample,
               const PackedPose& X_WS, std::int64_t t_ns) noexcept;
 

@@ -79,12 +79,11 @@ TEST(Calibrations, OfAForceSensorSetItsFilter) {
                        {"tool_mass_kg", {0.031}},
                        {"tool_centre_m", {0, 0.001, 0.05}}};
   const Station calibrated = withCalibrations(station, {applied(sensor, "abc")});
-  EXPECT_EQ(calibrated.force_sensor->filter.bias.f_S, (Packed3{0.1, -0.2, 0.3}));
-  EXPECT_EQ(calibrated.force_sensor->filter.bias.tau_S, (Packed3{0.01, 0.02, 0.03}));
-  EXPECT_EQ(calibrated.force_sensor->filter.tool.mass, 0.031);
-  EXPECT_EQ(calibrated.force_sensor->filter.tool.p_SM, (Packed3{0, 0.001, 0.05}));
-  EXPECT_EQ(calibrated.design.force_sensor->filter.tool.mass,
-            station.force_sensor->filter.tool.mass);
+  EXPECT_EQ(calibrated.force_sensor->bias.f_S, (Packed3{0.1, -0.2, 0.3}));
+  EXPECT_EQ(calibrated.force_sensor->bias.tau_S, (Packed3{0.01, 0.02, 0.03}));
+  EXPECT_EQ(calibrated.force_sensor->tool.mass, 0.031);
+  EXPECT_EQ(calibrated.force_sensor->tool.p_SM, (Packed3{0, 0.001, 0.05}));
+  EXPECT_EQ(calibrated.design.force_sensor->tool.mass, station.force_sensor->tool.mass);
 }
 
 }  // namespace
