@@ -211,8 +211,13 @@ void addExport(CLI::App& program) {
     for (const record::TickColumn& column : record::tickColumns())
       words += column.name + (": " + column.meaning) + '\n';
     writeWhole(dictionary, words);
+    const std::string laws = record::lawsJson(reader),
+                      laws_file =
+                          std::filesystem::path(*out).replace_extension("laws.json").string();
+    if (!laws.empty()) writeWhole(laws_file, laws + '\n');
     written.keep();
-    std::printf("Written: %s, %s\n", out->c_str(), dictionary.c_str());
+    std::printf("Written: %s, %s%s\n", out->c_str(), dictionary.c_str(),
+                laws.empty() ? "" : (", " + laws_file).c_str());
   });
 }
 

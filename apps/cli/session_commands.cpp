@@ -91,6 +91,11 @@ void addPalpation(CLI::App& program) {
          "A ring and the map of what was felt, in every other case, fading (default off)");
   on_off("--see-through", options->see_through,
          "Show the lumps (default off); such trials are not scored");
+  command
+      ->add_option("--tools", options->tools,
+                   "Fingers that press (default 1); 2: each on a device of its own, side by side")
+      ->check(CLI::Range(1, 2))
+      ->type_name("1|2");
   addAugmentArgument(*command, *options);
   addRunArguments(*command, *options);
   command->callback([options, preset] {

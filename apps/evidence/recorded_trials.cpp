@@ -63,7 +63,7 @@ using VisitPalpation =
 
 void walkPalpation(const record::SessionReader& reader, const record::TrialVisitor& besides,
                    const VisitPalpation& visit) {
-  task_palpation::PalpationListener listener(reader.info().tick_config);
+  task_palpation::PalpationListener listener(reader.info().tick_config, reader.info().pair_config);
   record::walkTrials(
       reader, reader.trials(),
       {.begin =
@@ -137,7 +137,10 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
            [&](const record::RecordedTrial& trial) {
              doses.begin(static_cast<std::uint32_t>(trial.header.trial));
            },
-       .tick = [&](const haptics::FlightRecord& record) { doses.add(record); },
+       .tick =
+           [&](const haptics::FlightRecord& record) {
+             if (record.tool == 0) doses.add(record);
+           },
        .finish = {}},
       [&](const record::RecordedTrial& trial, task_palpation::PalpationListener& listener) {
         trials.push_back({trial, session.judged(trial, listener)});

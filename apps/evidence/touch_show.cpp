@@ -122,7 +122,9 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
                                                json.number("phantom/away_mm", 10, 500),
                                                json.number("phantom/high_mm", 5, 300)),
                                    "phantom");
-    replay::PalpationReader reader(config(), trial_.number);
+    const std::optional<haptics::PairConfig>& pair = reader_.info().pair_config;
+    if (pair) trial_.X_AD2 = anatomy::X_AP() * unpack(pair->tools[1].X_DP).inverse();
+    replay::PalpationReader reader(config(), pair, trial_.number);
     receive(reader, [&] { return reader.seconds(); });
     reader.into(trial_);
     need(!trial_.moments.empty());

@@ -94,6 +94,11 @@ std::vector<TickColumn> tickColumns();
 /// programs. Written beside, then renamed. Throws Error.
 void exportTicks(const SessionReader& reader, const std::filesystem::path& file);
 
+/// The laws by which a session added to a real thing, as JSON, with the lumps of its trials: with
+/// the ticks enough to compute every added force again; empty where nothing real was touched. SI
+/// units.
+std::string lawsJson(const SessionReader& reader);
+
 /// What a walk calls, trial by trial in the order of their numbers. All three must be given.
 struct TrialVisitor {
   std::function<void(const RecordedTrial&)> begin;

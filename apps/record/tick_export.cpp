@@ -158,6 +158,22 @@ void addCommands(std::vector<ExportColumn>& columns) {
                                          [](const auto& lump) { return lump.kind > 0; }));
                      }});
   columns.push_back(
+      {{"squeeze_stiffness", "times as hard as what is held is"}, [](const FlightRecord& r) {
+         return shortest(static_cast<double>(r.commands.squeeze_stiffness));
+       }});
+  columns.push_back(
+      {{"squeeze_weight", "times as heavy as what is held is"}, [](const FlightRecord& r) {
+         return shortest(static_cast<double>(r.commands.squeeze_weight));
+       }});
+  columns.push_back({{"floor", "number of the floor that is searched; 0: none"},
+                     [](const FlightRecord& r) { return std::to_string(r.commands.floor); }});
+  columns.push_back({{"degraded", "1: the floor with the lesser gains"},
+                     [](const FlightRecord& r) { return std::to_string(r.commands.degraded); }});
+  columns.push_back({{"held", "1: the handle is held where an episode starts"},
+                     [](const FlightRecord& r) { return std::to_string(r.commands.held); }});
+  columns.push_back({{"augmented", "1: the session's augmentations may add force"},
+                     [](const FlightRecord& r) { return std::to_string(r.commands.augmented); }});
+  columns.push_back(
       {{"snapshot", "number of the newest geometry snapshot used, or refused in this tick"},
        [](const FlightRecord& r) { return std::to_string(r.snapshot); }});
 }
@@ -203,6 +219,20 @@ void addSensed(std::vector<ExportColumn>& columns) {
                        const auto index = static_cast<std::size_t>(r.sensed.state);
                        return std::string(index < std::size(kWords) ? kWords[index] : "?");
                      }});
+}
+
+/// What was added to it all, by which of the task's augmentations, in which of its parts.
+void addCues(std::vector<ExportColumn>& columns) {
+  addVector(columns, "f_augmentation_D", "N", "of all augmentations together, device base",
+            &FlightRecord::f_augmentation_D);
+  columns.push_back({{"parts", "bits of the task's parts that are on, in its file's order"},
+                     [](const FlightRecord& r) { return std::to_string(r.subtasks); }});
+  columns.push_back({{"cues", "bits of the task's augmentations that add force, in that order"},
+                     [](const FlightRecord& r) { return std::to_string(r.augmenting); }});
+  columns.push_back({{"cues_begun", "of these, those that were triggered in this tick"},
+                     [](const FlightRecord& r) { return std::to_string(r.began); }});
+  columns.push_back({{"place", "where on a floor, bits: see the record's README"},
+                     [](const FlightRecord& r) { return std::to_string(r.place); }});
 }
 
 void addContact(std::vector<ExportColumn>& columns) {
@@ -254,6 +284,7 @@ std::vector<ExportColumn> allColumns(const haptics::TickConfig& config) {
   addCommands(columns);
   addContact(columns);
   addSensed(columns);
+  addCues(columns);
   addStates(columns);
   return columns;
 }

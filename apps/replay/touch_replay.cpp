@@ -14,8 +14,8 @@ class PalpationReplay final : public TrialReplay {
       : TrialReplay(trial, trial.length_s()),
         recorded_(trial),
         map_(emptyMap()),
-        scene_({stage(view), anatomy::X_AP(), trial.rules.area, trial.tip_radius, ""}, bus_,
-               channels_) {}
+        scene_({stage(view), anatomy::X_AP(), trial.rules.area, trial.tip_radius, "", trial.X_AD2},
+               bus_, channels_) {}
 
  private:
   assess::CoverageMap emptyMap() const {
@@ -42,9 +42,11 @@ class PalpationReplay final : public TrialReplay {
     for (std::size_t i = 0; i < moment.marks; ++i)
       status.marks_P.push_back(recorded_.pressed[i].p_P);
     status.lumps = recorded_.lumps;
-    status.pressed_N = moment.samples > 0 ? recorded_.samples[moment.samples - 1].f_n : 0;
+    status.pressed_N =
+        task_palpation::pressing(assess::PalpationSamples(recorded_.samples).first(moment.samples));
     status.level = task_palpation::levelOf(recorded_.rules.levels, status.pressed_N);
     bus_.haptic_to_scene.publish(moment.tool, now_ns);
+    if (recorded_.X_AD2) bus_.second_to_scene.publish(moment.second, now_ns);
     channels_.status_to_scene.publish(status, now_ns);
   }
 
@@ -59,15 +61,21 @@ class PalpationReplay final : public TrialReplay {
 
 }  // namespace
 
-PalpationReader::PalpationReader(const haptics::TickConfig& config, int trial)
-    : X_ET_(unpack(config.X_ET)), listener_(config) {
+PalpationReader::PalpationReader(const haptics::TickConfig& config,
+                                 const std::optional<haptics::PairConfig>& pair, int trial)
+    : X_ET_(unpack(config.X_ET)), listener_(config, pair) {
   listener_.begin(static_cast<std::uint32_t>(trial));
 }
 
 void PalpationReader::add(const haptics::FlightRecord& record) {
   if (!listener_.add(record)) return;
-  moments_.push_back({listener_.seconds(), toolIn(record, X_ET_), listener_.samples().size(),
-                      listener_.marks().size()});
+  if (record.tool == 0)
+    moments_.push_back({listener_.seconds(), toolIn(record, X_ET_), {}, 0, 0});
+  else if (!moments_.empty())
+    moments_.back().second = toolIn(record, X_ET_);
+  if (moments_.empty()) return;
+  moments_.back().samples = listener_.samples().size();
+  moments_.back().marks = listener_.marks().size();
 }
 
 void PalpationReader::into(PalpationTrial& trial) const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "apps/replay/trial_replay.h"
@@ -13,8 +14,8 @@ namespace palpa::replay {
 
 /// One in 10 ms of a palpation; so many samples were felt and marks made up to it.
 struct PalpationMoment {
-  double t_s = 0;  ///< since the trial's start; pauses do not count
-  runtime::ToolState tool;
+  double t_s = 0;                   ///< since the trial's start; pauses do not count
+  runtime::ToolState tool, second;  ///< the second: of two tools
   std::size_t samples = 0, marks = 0;
 };
 
@@ -23,6 +24,7 @@ struct PalpationMoment {
 struct PalpationTrial : ShownTrial {
   assess::PalpationRules rules;
   double tip_radius = 0.008;             ///< m
+  std::optional<Pose> X_AD2;             ///< the second device's base, of two
   std::vector<PalpationMoment> moments;  ///< not empty
   std::vector<assess::PalpationSample> samples;
   std::vector<assess::LumpMark> pressed;  ///< the lumps that were marked
@@ -33,7 +35,8 @@ struct PalpationTrial : ShownTrial {
 /// Takes a session's ticks in their order and keeps those of one trial.
 class PalpationReader {
  public:
-  PalpationReader(const haptics::TickConfig& config, int trial);
+  PalpationReader(const haptics::TickConfig& config, const std::optional<haptics::PairConfig>& pair,
+                  int trial);
   void add(const haptics::FlightRecord& record);
   double seconds() const { return listener_.seconds(); }
   void into(PalpationTrial& trial) const;  ///< moments, samples, marks

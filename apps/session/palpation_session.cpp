@@ -19,13 +19,14 @@
 #include "apps/station/assets.h"
 #include "apps/task_palpation/palpation_scene.h"
 #include "apps/task_palpation/palpation_task.h"
-#include "apps/twin/palpating_hand.h"
+#include "apps/twin/feeling_hands.h"
 #include "apps/twin/soft_samples.h"
 
 namespace palpa::session {
 namespace {
 
 constexpr double kPickedUp = 0.05;  // m above the phantom
+constexpr double kBeside = 0.02;    // m, of the second finger
 
 station::Station palpationStation(const SessionOptions& options) {
   station::Station station = station::readStation(
@@ -46,6 +47,23 @@ station::Station palpationStation(const SessionOptions& options) {
                         "silicone; it must be \"virtual\", too");
   return station;
 }
+
+}  // namespace
+
+void PalpationWorld::checkFingers(const SessionOptions& options) const {
+  if (options.tools < 2) return;
+  if (!station.second_X_WD)
+    throw UsageError("has no \"second_device\"", station.file.name(),
+                     "--tools 2 needs a device for each finger: describe the second one");
+  if (station.device.driver != station::DeviceDriver::bench || options.who == OperatorKind::person)
+    throw UsageError("can only be simulated so far", "--tools 2",
+                     "Leave out --station, take --operator expert or novice");
+  if (options.augment)
+    throw UsageError("adds to what one tool feels", "--augment on with --tools 2",
+                     "Leave one of them out");
+}
+
+namespace {
 
 /// What anybody sees or has learnt of the phantom.
 twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
@@ -95,6 +113,14 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
   return config;
 }
 
+std::optional<haptics::PairConfig> PalpationWorld::pairConfig(const SessionOptions& options) const {
+  if (options.tools < 2) return std::nullopt;
+  haptics::PairConfig pair;
+  pair.tools = {tickConfig(options), tickConfig(options)};
+  pair.tools[1].X_DP = pack(Pose(station.second_X_WD->inverse() * station.sample->X_WP));
+  return pair;
+}
+
 SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const {
   const twin::PalpatingSkill skill = twin::readPalpatingSkill(operatorFile(options, "palpation_"));
   const twin::VisiblePhantom seen = visible(task);
@@ -109,23 +135,36 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
                                                              .grip = skill.grip})
           : nullptr;
   PointingHand* const pointing = person.get();
+  auto fingers = twin::palpatingFingers(skill, seen, station.X_ET, options.tools, options.seed);
   std::unique_ptr<twin::Hand> hand = std::move(person);
-  if (!hand) hand = std::make_unique<twin::PalpatingHand>(skill, seen, station.X_ET, options.seed);
-  const Pose X_WT =
-      X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(),
-                      Vec3(0, -task.scoring.rules.area.half_y, kPickedUp));
+  if (!hand) hand = std::move(fingers[0]);
+  const auto pickedUp = [&](double beside) {
+    return Pose(X_WP *
+                makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(),
+                         Vec3(beside, -task.scoring.rules.area.half_y, kPickedUp)));
+  };
   twin::VirtualBenchSetup bench{
       .station = station,
       .hand = std::move(hand),
-      .X_DE_start = station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
+      .X_DE_start = station.X_WD.inverse() * pickedUp(0) * station.X_ET.inverse(),
       .watched_W = X_WP.translation(),
       .normal_W = X_WP.linear() * Vec3::UnitZ(),
       .seed = options.benchSeed()};
+  if (options.tools == 2)
+    bench.second = twin::SecondTool{
+        .hand = std::move(fingers[1]),
+        .X_WD = *station.second_X_WD,
+        .X_DE_start = station.second_X_WD->inverse() * pickedUp(kBeside) * station.X_ET.inverse()};
   if (onBench()) {
     const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
-    bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
-      const twin::SampleTouch touch = sample->step(X_WT_true[0], dt);
-      return std::array<twin::RealTouch, 2>{{{touch.f_W, touch.p_W}, {}}};
+    const bool two = options.tools == 2;
+    bench.real_thing = [sample, two](const std::array<Pose, 2>& X_WT_true, double dt) {
+      const auto felt = [](const twin::SampleTouch& touch) {
+        return twin::RealTouch{touch.f_W, touch.p_W};
+      };
+      if (!two) return std::array<twin::RealTouch, 2>{felt(sample->step(X_WT_true[0], dt)), {}};
+      const std::array<twin::SampleTouch, 2> touches = sample->step(X_WT_true, dt);
+      return std::array<twin::RealTouch, 2>{felt(touches[0]), felt(touches[1])};
     };
   }
   return {std::move(bench), std::nullopt, task.library.tip_radius, pointing};
@@ -139,6 +178,7 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);
+  info.pair_config = pairConfig(options);
   return info;
 }
 
@@ -179,10 +219,12 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
   task_palpation::PalpationChannels channels(options.fast ? runtime::TimeMode::virtual_time
                                                           : runtime::TimeMode::real);
   const haptics::TickConfig tick = world.tickConfig(options);
-  SessionFrame frame(options, {world.station, world.phantom, world.X_WA, tick},
+  const std::optional<haptics::PairConfig> pair = world.pairConfig(options);
+  SessionFrame frame(options, {world.station, world.phantom, world.X_WA, tick, pair},
                      world.hands(options), channels, folder);
   task_palpation::PalpationTask task({.settings = world.task,
                                       .tick = tick,
+                                      .pair = pair,
                                       .simulated = world.simulated(options),
                                       .automatic = options.who != OperatorKind::person,
                                       .see_through = options.see_through,
@@ -191,11 +233,15 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
                                       .plan = planOf(options, world),
                                       .places = frame.places()},
                                      frame.bus(), channels, frame.executive());
+  const auto second =
+      pair ? std::optional<Pose>(anatomy::X_AP() * unpack(pair->tools[1].X_DP).inverse())
+           : std::nullopt;
   task_palpation::PalpationScene scene({.stage = frame.stage(),
                                         .X_AP = anatomy::X_AP(),
                                         .area = world.task.scoring.rules.area,
                                         .tip_radius = world.task.library.tip_radius,
-                                        .force_note = world.forceNote()},
+                                        .force_note = world.forceNote(),
+                                        .X_AD2 = second},
                                        frame.bus(), channels);
   PalpationRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));

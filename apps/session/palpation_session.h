@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "anatomy/parametric/phantoms.h"
 #include "apps/record/session_file.h"
@@ -30,7 +31,11 @@ struct PalpationWorld {
     return isSimulated(options.who) || station.simulated || task.library.simulated;
   }
   bool onBench() const { return station.device.driver == station::DeviceDriver::bench; }
+  /// That whoever palpates has a device for each finger. Throws UsageError.
+  void checkFingers(const SessionOptions& options) const;
   haptics::TickConfig tickConfig(const SessionOptions& options) const;
+  /// Of two fingers; empty: one.
+  std::optional<haptics::PairConfig> pairConfig(const SessionOptions& options) const;
   /// Who may hold the tool: on the bench's silicone a simulated person, or one with a mouse, who
   /// sees what is felt there.
   SessionDevices::Hands hands(const SessionOptions& options) const;

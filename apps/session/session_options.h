@@ -105,6 +105,7 @@ struct SessionOptions {
   std::string igtl_listen = "127.0.0.1";  ///< to whom: an address of this computer
   bool guidance = false;                  ///< palpation: help that fades, in every other trial
   bool see_through = false;               ///< palpation: the lumps are shown; not scored
+  int tools = 1;                          ///< palpation: 2: fingers, each on a device of its own
   /// search: real, degraded, augmented, or all of them one after the other
   std::string mode = "real";
   bool blocks = false;   ///< search: the task's blocks; training in `mode`

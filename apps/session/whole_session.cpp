@@ -67,6 +67,7 @@ SessionLeft holdPalpation(SessionOptions options) {
                      "Choose window or offscreen");
   const PalpationWorld world(options);
   settleOperator(options, world.station);
+  world.checkFingers(options);
   checkTrainee(options);
   return heldIn(options, [&](const std::filesystem::path& folder) {
     const PalpationRun run = runPalpation(options, world, folder);

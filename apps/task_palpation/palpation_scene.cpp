@@ -34,10 +34,11 @@ std::string lineOf(const char* pattern, Numbers... numbers) {
 
 PalpationScene::PalpationScene(const PalpationSceneSetup& setup, runtime::Bus& bus,
                                PalpationChannels& channels)
-    : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {}
+    : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels), bus_(bus) {}
 
 const trial::TrialStatus& PalpationScene::readStatus(std::int64_t now_ns) {
   if (const PalpationStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
+  if (const runtime::ToolState* tool = bus_.second_to_scene.read(now_ns)) second_ = *tool;
   return status_;
 }
 
@@ -46,7 +47,17 @@ void PalpationScene::compose(scene::SceneState& state, const runtime::ToolState&
   state.tool = scene::Tool::probe;
   state.hud = words(tool, trouble);
   showFelt(state);
-  state.forces = shownForces(tool, X_AD().rotation(), state.X_AT, !status_.lumps.empty());
+  const bool apart = !status_.lumps.empty();
+  state.forces = shownForces(tool, X_AD().rotation(), state.X_AT, apart);
+  if (!setup_.X_AD2) return;
+  state.second_X_AT = *setup_.X_AD2 * unpack(second_.X_DT);
+  for (const scene::ForceArrow& arrow :
+       shownForces(second_, setup_.X_AD2->rotation(), *state.second_X_AT, apart))
+    state.forces.push_back(arrow);
+}
+
+void PalpationScene::addTo(runtime::Displayed& displayed, const runtime::ToolState&) {
+  if (setup_.X_AD2) displayed.second_X_AT = *setup_.X_AD2 * unpack(second_.X_DT);
 }
 
 /// The area is outlined from the start: it is known what is to be searched.
@@ -86,7 +97,8 @@ scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::stri
     if (!status_.marks_P.empty())
       hud.marked = lineOf("%d", static_cast<int>(status_.marks_P.size()));
   }
-  trial::noticeOf(status_, tool.safety, "", trouble, &hud);
+  const bool first = !setup_.X_AD2 || tool.safety != haptics::SafetyCause::none;
+  trial::noticeOf(status_, first ? tool.safety : second_.safety, "", trouble, &hud);
   hud.mark = mark();
   return hud;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "apps/runtime/bus.h"
@@ -23,6 +24,7 @@ struct PalpationSceneSetup {
   assess::SearchArea area;
   double tip_radius = 0.008;  ///< m
   std::string force_note;     ///< what deep is here; empty: as on a patient
+  std::optional<Pose> X_AD2;  ///< the second device's base, of two
 };
 
 /// What is seen of a palpation: the area and how firmly it was felt, marks, lumps where they may be
@@ -35,12 +37,15 @@ class PalpationScene final : public trial::TrialScene {
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
   void compose(scene::SceneState& state, const runtime::ToolState& tool,
                const std::string& trouble) override;
+  void addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
   void showFelt(scene::SceneState& state) const;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
 
   PalpationSceneSetup setup_;
   PalpationChannels& channels_;
+  runtime::Bus& bus_;
   PalpationStatus status_;
+  runtime::ToolState second_;  // of two
 };
 
 }  // namespace palpa::task_palpation

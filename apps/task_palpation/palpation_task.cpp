@@ -20,39 +20,58 @@ constexpr double kLongestGap_s = 0.1;  // longer: it was paused
 
 }  // namespace
 
-PalpationListener::PalpationListener(const haptics::TickConfig& config)
-    : X_PD_(unpack(config.X_DP).inverse()),
+namespace {
+
+const haptics::TickConfig& secondOf(const haptics::TickConfig& config,
+                                    const std::optional<haptics::PairConfig>& pair) {
+  return pair ? pair->tools[1] : config;
+}
+
+}  // namespace
+
+PalpationListener::PalpationListener(const haptics::TickConfig& config,
+                                     const std::optional<haptics::PairConfig>& pair)
+    : X_PD_{unpack(config.X_DP).inverse(), unpack(secondOf(config, pair).X_DP).inverse()},
       X_ET_(unpack(config.X_ET)),
       radius_(config.touch.tip_radius) {}
 
 void PalpationListener::begin(std::uint32_t trial) {
   trial_ = trial;
-  last_ns_ = kept_ns_ = -1;
+  last_ns_ = -1;
+  kept_ns_ = {-1, -1};
   seconds_ = 0;
   pressed_ = true;  // a button that is down already marks nothing
   samples_.clear();
   marks_.clear();
 }
 
-bool PalpationListener::add(const haptics::FlightRecord& record) {
-  if (record.commands.trial != trial_) return false;
-  if (!record.commands.armed || !record.reading.homed) {
-    pressed_ = true;  // what is pressed over a pause marks nothing
-    return false;
-  }
-  const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
-  last_ns_ = record.t_ns;
-  if (dt > 0 && dt < kLongestGap_s) seconds_ += dt;
+Vec3 PalpationListener::lowestPoint(const haptics::FlightRecord& record) const {
   const Pose X_DE = makePose(unpack(record.reading.q_DE).normalized().toRotationMatrix(),
                              unpack(record.reading.p_DE));
-  const Vec3 p_P = X_PD_ * (X_DE * (X_ET_ * Vec3(0, 0, -radius_))) - radius_ * Vec3::UnitZ();
-  const bool down = (record.reading.buttons & kMark) != 0;
-  if (down && !pressed_ && p_P.z() < kOver) marks_.push_back({seconds_, p_P, 0, 0, 0});
-  pressed_ = down;
-  if (kept_ns_ >= 0 && record.t_ns - kept_ns_ < kEvery_ns) return false;
-  kept_ns_ = record.t_ns;
+  return X_PD_[record.tool & 1] * (X_DE * (X_ET_ * Vec3(0, 0, -radius_))) - radius_ * Vec3::UnitZ();
+}
+
+bool PalpationListener::add(const haptics::FlightRecord& record) {
+  if (record.commands.trial != trial_) return false;
+  const std::size_t tool = record.tool & 1;
+  if (!record.commands.armed || !record.reading.homed) {
+    if (tool == 0) pressed_ = true;  // what is pressed over a pause marks nothing
+    return false;
+  }
+  const Vec3 p_P = lowestPoint(record);
+  if (tool == 0) {
+    const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
+    last_ns_ = record.t_ns;
+    if (dt > 0 && dt < kLongestGap_s) seconds_ += dt;
+    const bool down = (record.reading.buttons & kMark) != 0;
+    if (down && !pressed_ && p_P.z() < kOver) marks_.push_back({seconds_, p_P, 0, 0, 0});
+    pressed_ = down;
+  }
+  if (kept_ns_[tool] >= 0 && record.t_ns - kept_ns_[tool] < kEvery_ns) return false;
+  kept_ns_[tool] = record.t_ns;
   const Vec3 f_D = unpack(record.sensed.f_D) + unpack(record.f_command_D);
-  samples_.push_back({seconds_, p_P, std::max((X_PD_.linear() * f_D).z(), 0.0)});
+  samples_.push_back(
+      {seconds_, p_P, std::max((X_PD_[tool].linear() * f_D).z(), 0.0), static_cast<int>(tool)});
   return true;
 }
 
@@ -62,6 +81,13 @@ void PalpationListener::grade(double diameter, int hardness, int mobility, std::
   if (diameter > 0) graded.diameter = diameter;
   if (hardness > 0) graded.hardness = hardness;
   if (mobility > 0) graded.mobility = mobility;
+}
+
+double pressing(assess::PalpationSamples samples) {
+  if (samples.empty()) return 0;
+  const assess::PalpationSample& last = samples.back();
+  if (samples.size() < 2 || samples[samples.size() - 2].tool == last.tool) return last.f_n;
+  return std::max(last.f_n, samples[samples.size() - 2].f_n);
 }
 
 int levelOf(const assess::PressureLevels& levels, double f) {
@@ -120,9 +146,9 @@ PalpationTask::PalpationTask(const PalpationTaskSetup& setup, runtime::Bus& bus,
           bus, channels, executive),
       setup_(setup),
       channels_(channels),
-      listener_(setup.tick),
+      listener_(setup.tick, setup.pair),
       doses_(setup.tick.augmentations, setup.settings.augmentations.subtaskNames()),
-      sensor_(setup.tick),
+      sensors_{SensorCheck(setup.tick), SensorCheck(secondOf(setup.tick, setup.pair))},
       map_(setup.settings.scoring.rules.area, setup.settings.scoring.rules.levels,
            setup.settings.scoring.rules.reach),
       guidance_(setup.guided) {
@@ -131,13 +157,20 @@ PalpationTask::PalpationTask(const PalpationTaskSetup& setup, runtime::Bus& bus,
   shown_.rows = map_.rows();
 }
 
-std::string PalpationTask::notReady(const haptics::FlightRecord& last) const {
-  if (last.sensed.state != haptics::SensorState::valid)
-    return "the force sensor gives no reading that can be used";
-  if (unpack(last.sensed.f_D).norm() < setup_.settings.scoring.rules.touch) return "";
-  if (sensor_.inTheAir(last) == 0) return "the tool touches something: lift it";
-  return "the force sensor shows a force though nothing is touched: it has drifted, or its scale "
-         "is wrong. Zero it again";
+/// Of every tool there is.
+std::string PalpationTask::notReady(const haptics::FlightRecord&) const {
+  for (std::size_t t = 0; t < (setup_.pair ? 2u : 1u); ++t) {
+    const haptics::FlightRecord& last = last_of_[t];
+    const std::string which = !setup_.pair ? "" : t == 0 ? "first " : "second ";
+    if (last.sensed.state != haptics::SensorState::valid)
+      return "the " + which + "force sensor gives no reading that can be used";
+    if (unpack(last.sensed.f_D).norm() < setup_.settings.scoring.rules.touch) continue;
+    if (sensors_[t].inTheAir(last) == 0) return "the " + which + "tool touches something: lift it";
+    return "the " + which +
+           "force sensor shows a force though nothing is touched: it has drifted, or its scale is "
+           "wrong. Zero it again";
+  }
+  return "";
 }
 
 runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
@@ -145,7 +178,7 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   placed_ = placed(case_, setup_.settings.anatomy);
   listener_.begin(static_cast<std::uint32_t>(status().trial));
   doses_.begin(static_cast<std::uint32_t>(status().trial));
-  sensor_.reset();
+  for (SensorCheck& sensor : sensors_) sensor.reset();
   map_ =
       assess::CoverageMap(setup_.settings.scoring.rules.area, setup_.settings.scoring.rules.levels,
                           setup_.settings.scoring.rules.reach);
@@ -201,13 +234,14 @@ trial::TrialTask::Conclusion PalpationTask::conclude(Outcome outcome, const std:
 
 void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
   if (status().state == trial::TrialState::running) {
-    if (const std::string trouble = sensor_.add(record); !trouble.empty()) {
-      sensor_.reset();
+    SensorCheck& sensor = sensors_[record.tool & 1];
+    if (const std::string trouble = sensor.add(record); !trouble.empty()) {
+      sensor.reset();
       return hold(trouble, now_ns);
     }
   }
   const std::size_t marks = listener_.marks().size();
-  doses_.add(record);
+  if (record.tool == 0) doses_.add(record);
   const bool kept = listener_.add(record);
   if (listener_.marks().size() > marks) {
     shown_.marks_P.push_back(listener_.marks().back().p_P);
@@ -216,7 +250,7 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   }
   if (!kept) return;
   map_.add(listener_.samples().back());
-  shown_.pressed_N = listener_.samples().back().f_n;
+  shown_.pressed_N = pressing(listener_.samples());
   shown_.level = levelOf(setup_.settings.scoring.rules.levels, shown_.pressed_N);
   status().elapsed_s = listener_.seconds();
   if (status().elapsed_s >= setup_.settings.time_limit_s)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -19,13 +20,16 @@ namespace palpa::task_palpation {
 /// replay. Place: the lowest point of the round tip, on whose end T is. How hard it is pressed:
 /// what the hand has to hold against along P's z, the real thing and the device together. A mark:
 /// button 1 of the device goes down while the tip is not above the phantom's top by more than
-/// `kOver`; beside the area, too, where it is a false alarm.
+/// `kOver`; beside the area, too, where it is a false alarm. Of two tools each is felt for itself;
+/// the first one's clock and button count.
 class PalpationListener {
  public:
   static constexpr std::uint32_t kMark = 1;  ///< bit of DeviceReading::buttons
   /// m above the top, at which a button still means the phantom
   static constexpr double kOver = 0.010;
-  explicit PalpationListener(const haptics::TickConfig& config);
+  /// `pair`: of two tools
+  explicit PalpationListener(const haptics::TickConfig& config,
+                             const std::optional<haptics::PairConfig>& pair = {});
 
   void begin(std::uint32_t trial);  ///< everything so far is forgotten
   /// Counts while the trial is on and the force may be rendered. True for a sample that was kept
@@ -40,10 +44,14 @@ class PalpationListener {
   const std::vector<assess::LumpMark>& marks() const { return marks_; }
 
  private:
-  Pose X_PD_, X_ET_;
+  Vec3 lowestPoint(const haptics::FlightRecord& record) const;
+
+  std::array<Pose, 2> X_PD_;  // of each device
+  Pose X_ET_;
   double radius_;
   std::uint32_t trial_ = 0;
-  std::int64_t last_ns_ = -1, kept_ns_ = -1;
+  std::int64_t last_ns_ = -1;
+  std::array<std::int64_t, 2> kept_ns_{-1, -1};
   double seconds_ = 0;
   bool pressed_ = false;
   std::vector<assess::PalpationSample> samples_;
@@ -92,6 +100,7 @@ struct PalpationChannels : trial::Channels {
 struct PalpationTaskSetup {
   const PalpationSettings& settings;
   haptics::TickConfig tick;
+  std::optional<haptics::PairConfig> pair;  ///< of two tools
   bool simulated = false, automatic = true;
   bool see_through = false;  ///< the lumps while a trial runs: a demonstration
   bool guided = false;
@@ -113,6 +122,7 @@ class PalpationTask final : public trial::TrialTask {
   std::string notReady(const haptics::FlightRecord& last) const override;
   runtime::TrialHeader begin(std::int64_t now_ns) override;
   Conclusion conclude(training::Outcome outcome, const std::string& reason) override;
+  void watch(const haptics::FlightRecord& record) override { last_of_[record.tool & 1] = record; }
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;
@@ -126,7 +136,8 @@ class PalpationTask final : public trial::TrialTask {
   PalpationChannels& channels_;
   PalpationListener listener_;
   assess::TrialDoses doses_;
-  SensorCheck sensor_;
+  std::array<SensorCheck, 2> sensors_;  // of each tool
+  std::array<haptics::FlightRecord, 2> last_of_;
   assess::CoverageMap map_;
   Guidance guidance_;
   Case case_;
@@ -135,6 +146,8 @@ class PalpationTask final : public trial::TrialTask {
   std::vector<CompletedPalpation> completed_;
 };
 
+/// How hard the finger presses that presses harder, N, by the newest samples.
+double pressing(assess::PalpationSamples samples);
 /// As the scene shows it: of a pressure, 0 to 3; of each cell of the map, row by row from the
 /// trainee away.
 int levelOf(const assess::PressureLevels& levels, double f_N);

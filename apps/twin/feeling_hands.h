@@ -5,10 +5,21 @@
 #include <vector>
 
 #include "apps/twin/hand.h"
+#include "apps/twin/lump_search.h"
 #include "apps/twin/operator_skills.h"
 
-/// Simulated persons who find out by feel: over a floor, and between two fingers.
+/// Simulated persons who find out by feel: in soft tissue, over a floor, and between two fingers.
 namespace palpa::twin {
+
+/// The fingers, one or two, of a simulated person who searches a soft thing for lumps, in vertical
+/// strips: presses, judges how far it gave way at each pressure against what the nearest ordinary
+/// places gave, looks closer where it gave less, marks by holding still with the button, grades.
+/// Two fingers search side by side, strips apart; the closer look is the first one's alone, and
+/// before it marks, both roll what is between them. Knows what is on the screen and what the
+/// fingers feel; nothing else.
+std::vector<std::unique_ptr<Hand>> palpatingFingers(const PalpatingSkill& skill,
+                                                    const VisiblePhantom& phantom, const Pose& X_ET,
+                                                    int fingers, std::uint64_t seed);
 
 /// What anybody sees and has been told: the floor's outline, magnified; that three elements lie
 /// equally spaced on a circle, each with a pit in its middle.

@@ -11,8 +11,9 @@ namespace {
 // m, of a closer look: its presses lie within 5 mm of each other; the search itself has felt the
 // flanks
 constexpr double kCross = 0.0035;
-constexpr double kKnown = 0.014;   // m: nobody looks twice at the same lump or its flank
-constexpr double kAround = 0.016;  // m: as far as a lump is felt
+constexpr double kFingersApart = 0.02;  // m, of two fingertips side by side
+constexpr double kKnown = 0.014;        // m: nobody looks twice at the same lump or its flank
+constexpr double kAround = 0.016;       // m: as far as a lump is felt
 constexpr double kBelongs =
     0.017;  // m from the middle of what belongs there: farther off a lump would be felt as one
 // Sum of squares of firmness: less is explained where a single press was firm by chance
@@ -23,11 +24,12 @@ constexpr double kSame = 0.008;        // m, of a place that was dismissed
 
 }  // namespace
 
-LumpSearch::LumpSearch(const PalpatingSkill& skill, const VisiblePhantom& phantom,
+LumpSearch::LumpSearch(const PalpatingSkill& skill, const VisiblePhantom& phantom, int fingers,
                        std::uint64_t seed)
     : skill_(skill),
       phantom_(phantom),
       seed_(seed),
+      fingers_(fingers),
       judgement_(seed, "palpating.judgement.0"),
       memory_(skill.pressures.size()) {}
 
@@ -50,7 +52,11 @@ void LumpSearch::planStrips() {
       std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_x / skill_.strip - 1e-9)));
   const int steps =
       std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_y / skill_.step - 1e-9)));
+  const double width = 2 * phantom_.half_x / strips;
+  const int beside = std::max(1, static_cast<int>(std::lround(kFingersApart / width)));
+  if (fingers_ > 1) apart_ = Vec3(beside * width, 0, 0);
   for (int i = 0; i < skill_.area_share * strips; ++i) {
+    if (fingers_ > 1 && (i / beside) % 2 == 1) continue;  // the other finger's
     for (int k = 0; k < steps; ++k) {
       const int j = i % 2 == 0 ? k : steps - 1 - k;
       const Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips - 1),
@@ -101,7 +107,8 @@ LumpSearch::Intent LumpSearch::next() {
   if (places.empty()) return {Deed::end, Vec3::Zero(), {Hand::WordKind::done, 0, 0, 0}};
   const Vec3 place = places.back();
   places.pop_back();
-  return {Deed::press, place, {}};
+  const bool both = fingers_ > 1 && !suspect_P_ && place.x() + apart_.x() <= phantom_.half_x;
+  return {Deed::press, place, {}, both};
 }
 
 /// Where the hill about a place has its top, by what the search has told; a hand that looked closer

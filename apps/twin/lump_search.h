@@ -34,15 +34,20 @@ class LumpSearch {
   struct Intent {
     Deed deed = Deed::end;
     Vec3 p_P = Vec3::Zero();
-    Hand::Word word;  ///< of a mark its grade, at the end that it is done
+    Hand::Word word;    ///< of a mark its grade, at the end that it is done
+    bool both = false;  ///< a press: of a second finger, too, `apart` beside
   };
-  LumpSearch(const PalpatingSkill& skill, const VisiblePhantom& phantom, std::uint64_t seed);
+  /// `fingers`: one, or two that search side by side, so many strips apart as fingers are.
+  LumpSearch(const PalpatingSkill& skill, const VisiblePhantom& phantom, int fingers,
+             std::uint64_t seed);
 
   void begin(int trial);
   /// Of a press: how far it gave way to the first pressure, and from there to each of the others.
+  /// Of two fingers first the one, then the other.
   void felt(const Vec3& p_P, std::vector<double> depths);
   Intent next();
   bool looksCloser() const { return suspect_P_.has_value(); }
+  const Vec3& apart() const { return apart_; }  ///< from the first finger to the second
 
  private:
   enum class Look {
@@ -69,6 +74,8 @@ class LumpSearch {
   PalpatingSkill skill_;
   VisiblePhantom phantom_;
   std::uint64_t seed_;
+  int fingers_;
+  Vec3 apart_ = Vec3::Zero();
   RandomStream judgement_;
   /// Still to be pressed, the next one last: in the search, in the closer look that is on
   std::vector<Vec3> places_, closer_places_;

@@ -1,8 +1,14 @@
-#include "apps/twin/palpating_hand.h"
+#include "apps/twin/feeling_hands.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
+
+#include "anatomy/base/random.h"
+#include "apps/twin/hand_motion.h"
+#include "apps/twin/hand_senses.h"
 
 namespace palpa::twin {
 namespace {
@@ -19,85 +25,215 @@ constexpr double
 constexpr double kLift = 0.05;  // m/s
 constexpr double kMarkFor_s = 0.3;
 constexpr double kHome = 0.04;  // m above the top
+// Rolling: both come down, then one after the other presses, this often; s, m
+constexpr double kRollBegins_s = 0.4, kRollTurn_s = 0.8, kRollMean = 0.0035, kRollSwing = 0.0015;
+constexpr int kRolls = 3;
 
-}  // namespace
+std::string streamOf(const char* name, std::size_t finger) {
+  return finger == 0 ? name : std::string(name) + "." + std::to_string(finger);
+}
 
-PalpatingHand::PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& phantom,
-                             const Pose& X_ET, std::uint64_t seed)
-    : skill_(skill),
-      X_AP_(phantom.X_AP),
-      X_ET_(X_ET),
-      X_TE_(X_ET.inverse()),
-      noise_(seed, "palpating.noise"),
-      tremor_(skill.tremor_rms, RandomStream(seed, "palpating.tremor")),
-      search_(skill, phantom, seed) {}
+/// One finger: where it is, what it feels.
+struct Finger {
+  Finger(const PalpatingSkill& skill, std::size_t number, std::uint64_t seed)
+      : noise(seed, streamOf("palpating.noise", number)),
+        tremor(skill.tremor_rms, RandomStream(seed, streamOf("palpating.tremor", number))) {}
 
-void PalpatingHand::beginTrial(int trial, double now_s) {
+  /// A press begins here.
+  void begin() {
+    touched = false;
+    ended = false;
+    air_N = felt_N;
+    resistance_N = 0;
+    z = tip_P.z();
+    depths.clear();
+  }
+
+  RandomStream noise;
+  Tremor tremor;
+  Bearings bearings;
+  double speed = 0;
+  Vec3 p_last_D = Vec3::Zero();
+  std::int64_t last_look_ns = 0, next_feeling_ns = 0;
+  Vec3 tip_P = Vec3::Zero();
+  double wanted_z = 0;
+  double felt_N = 0, air_N = 0, touched_z = 0, light_z = 0;
+  double resistance_N = 0, z = 0;  // at the last thought
+  bool touched = false, ended = false;
+  std::vector<double> depths;  // of this press so far
+};
+
+/// The person behind the fingers.
+class PalpatingMind {
+ public:
+  PalpatingMind(const PalpatingSkill& skill, const VisiblePhantom& phantom, const Pose& X_ET,
+                std::size_t fingers, std::uint64_t seed)
+      : skill_(skill),
+        X_AP_(phantom.X_AP),
+        X_ET_(X_ET),
+        X_TE_(X_ET.inverse()),
+        search_(skill, phantom, static_cast<int>(fingers), seed) {
+    for (std::size_t i = 0; i < fingers; ++i) fingers_.emplace_back(skill, i, seed);
+  }
+
+  Hand::Action act(std::size_t number, const Hand::Senses& senses, double dt);
+
+ private:
+  enum class PalpationStep { rest, travel, press, overshoot, lift, roll, mark, release };
+  void look(std::size_t number, const Hand::Senses& senses, double dt);
+  void feel(Finger& finger, const Hand::Senses& senses);
+  void think(const Hand::Senses& senses);
+  void beginTrial(int trial, double now_s);
+  void goTo(const Vec3& p_P, double now_s, PalpationStep next);
+  void travel(double now_s);
+  void press(double now_s);
+  void pressing(Finger& finger);
+  void lift(double now_s);
+  void roll(double now_s);
+  void next(double now_s);
+  bool presses(std::size_t number) const { return number == 0 || both_; }
+  void lower(double by);
+
+  PalpatingSkill skill_;
+  Pose X_AP_, X_ET_, X_TE_;
+  std::vector<Finger> fingers_;
+
+  PalpationStep step_ = PalpationStep::rest, after_travel_ = PalpationStep::rest;
+  int trial_ = 0;
+  Vec3 at_P_ = Vec3::Zero();  // where the first finger is wanted; its height is each finger's own
+  bool both_ = false;         // press in this press
+  MinJerk move_;
+  double since_s_ = 0;
+  LumpSearch search_;
+  std::optional<LumpSearch::Intent> to_mark_;  // once it has been rolled
+  Hand::Word word_;
+  bool done_ = false;
+};
+
+void PalpatingMind::beginTrial(int trial, double now_s) {
   trial_ = trial;
   done_ = false;
+  to_mark_.reset();
   search_.begin(trial);
   next(now_s);
 }
 
-void PalpatingHand::goTo(const Vec3& p_P, double now_s, PalpationStep next) {
+void PalpatingMind::goTo(const Vec3& p_P, double now_s, PalpationStep next) {
   const Vec3 over(p_P.x(), p_P.y(), p_P.z() + kOverTop);
-  move_ = MinJerk(makePose(Mat3::Identity(), tip_P_), makePose(Mat3::Identity(), over), now_s,
-                  std::max(0.15, (over - tip_P_).norm() / skill_.travel_speed));
+  const Vec3 from(at_P_.x(), at_P_.y(), fingers_[0].wanted_z);
+  move_ = MinJerk(makePose(Mat3::Identity(), from), makePose(Mat3::Identity(), over), now_s,
+                  std::max(0.15, (over - from).norm() / skill_.travel_speed));
   step_ = PalpationStep::travel;
   after_travel_ = next;
 }
 
+/// A finger that does not press this time stays above.
+void PalpatingMind::lower(double by) {
+  for (std::size_t i = 0; i < fingers_.size(); ++i)
+    if (presses(i) && !fingers_[i].ended) fingers_[i].wanted_z -= by;
+}
+
 /// Down evenly; what it takes to move in the air is no resistance of the phantom.
-void PalpatingHand::pressing(double now_s) {
-  tip_P_.z() -= skill_.press_speed * kThink_s;
-  if (tip_now_P_.z() > kMoves)
-    air_N_ = felt_N_;
-  else if (tip_now_P_.z() > kNear)
-    air_N_ += kSharp * (felt_N_ - air_N_);
-  const double resistance = felt_N_ - air_N_, z = tip_now_P_.z();
+void PalpatingMind::pressing(Finger& f) {
+  if (f.tip_P.z() > kMoves)
+    f.air_N = f.felt_N;
+  else if (f.tip_P.z() > kNear)
+    f.air_N += kSharp * (f.felt_N - f.air_N);
+  const double resistance = f.felt_N - f.air_N, z = f.tip_P.z();
   // Where between two thoughts a force was passed: a press is felt as one, not in steps.
   const auto passed = [&](double force_N) {
-    const double share = (force_N - resistance_N_) / std::max(resistance - resistance_N_, 1e-9);
-    return z_ + std::clamp(share, 0.0, 1.0) * (z - z_);
+    const double share = (force_N - f.resistance_N) / std::max(resistance - f.resistance_N, 1e-9);
+    return f.z + std::clamp(share, 0.0, 1.0) * (z - f.z);
   };
-  if (!touched_ && resistance > kTouch_N) {
-    touched_ = true;
-    touched_z_ = passed(kTouch_N);
+  if (!f.touched && resistance > kTouch_N) {
+    f.touched = true;
+    f.touched_z = passed(kTouch_N);
   }
-  while (touched_ && depths_.size() < skill_.pressures.size() &&
-         resistance >= skill_.pressures[depths_.size()]) {
-    const double there = passed(skill_.pressures[depths_.size()]);
-    if (depths_.empty()) light_z_ = there;
-    depths_.push_back((depths_.empty() ? touched_z_ : light_z_) - there);
+  while (f.touched && f.depths.size() < skill_.pressures.size() &&
+         resistance >= skill_.pressures[f.depths.size()]) {
+    const double there = passed(skill_.pressures[f.depths.size()]);
+    if (f.depths.empty()) f.light_z = there;
+    f.depths.push_back((f.depths.empty() ? f.touched_z : f.light_z) - there);
   }
-  resistance_N_ = resistance;
-  z_ = z;
+  f.resistance_N = resistance;
+  f.z = z;
   const double enough = skill_.pressures.back() * (search_.looksCloser() ? skill_.closer_force : 1);
-  if (resistance < enough && tip_now_P_.z() > -kDeepest) return;
+  f.ended = resistance >= enough || f.tip_P.z() <= -kDeepest;
+}
+
+/// Each finger goes on until it has pressed enough; the other one waits where it is.
+void PalpatingMind::press(double now_s) {
+  lower(skill_.press_speed * kThink_s);
+  bool all = true;
+  for (std::size_t i = 0; i < fingers_.size(); ++i) {
+    if (!presses(i)) continue;
+    if (!fingers_[i].ended) pressing(fingers_[i]);
+    all &= fingers_[i].ended;
+  }
+  if (!all) return;
   since_s_ = now_s;
+  for (Finger& f : fingers_) f.ended = false;
   step_ = PalpationStep::overshoot;  // it goes on for as long as it takes to react
 }
 
-void PalpatingHand::next(double now_s) {
+void PalpatingMind::next(double now_s) {
   using Deed = LumpSearch::Deed;
   const LumpSearch::Intent intent = search_.next();
   if (intent.deed != Deed::press) word_ = intent.word;
+  both_ = intent.both;
   done_ = intent.deed == Deed::end;
   if (done_) return goTo(Vec3(0, 0, kHome), now_s, PalpationStep::rest);
+  if (intent.deed == Deed::mark && fingers_.size() > 1) {
+    to_mark_ = intent;
+    both_ = true;
+    return goTo(intent.p_P - 0.5 * search_.apart(), now_s, PalpationStep::roll);
+  }
   goTo(intent.p_P, now_s, intent.deed == Deed::mark ? PalpationStep::mark : PalpationStep::press);
 }
 
-void PalpatingHand::think(const Senses& senses) {
+void PalpatingMind::travel(double now_s) {
+  const Vec3 now = move_.at(now_s).translation();
+  at_P_ = now;
+  for (Finger& f : fingers_) f.wanted_z = now.z();
+  if (!move_.done(now_s)) return;
+  step_ = after_travel_;
+  since_s_ = now_s;
+  for (Finger& f : fingers_) f.begin();
+}
+
+void PalpatingMind::lift(double now_s) {
+  for (std::size_t i = 0; i < fingers_.size(); ++i)
+    if (presses(i) && fingers_[i].wanted_z < kOverTop) fingers_[i].wanted_z += kLift * kThink_s;
+  for (const Finger& f : fingers_)
+    if (f.wanted_z < kOverTop) return;
+  search_.felt(fingers_[0].tip_P, fingers_[0].depths);
+  if (both_) search_.felt(fingers_[1].tip_P, fingers_[1].depths);
+  next(now_s);
+}
+
+/// The lump between the fingers, one pressing as the other yields.
+void PalpatingMind::roll(double now_s) {
+  const double t = now_s - since_s_, turns = (t - kRollBegins_s) / kRollTurn_s;
+  const double down = std::clamp(t / kRollBegins_s, 0.0, 1.0);
+  const double swing =
+      turns > 0 ? kRollSwing * std::sin(2 * std::numbers::pi * std::min<double>(turns, kRolls)) : 0;
+  fingers_[0].wanted_z = kOverTop - down * (kOverTop + kRollMean) - swing;
+  fingers_[1].wanted_z = kOverTop - down * (kOverTop + kRollMean) + swing;
+  if (turns < kRolls) return;
+  const LumpSearch::Intent mark = *to_mark_;
+  to_mark_.reset();
+  both_ = false;
+  goTo(mark.p_P, now_s, PalpationStep::mark);
+}
+
+void PalpatingMind::think(const Hand::Senses& senses) {
   const double now_s = static_cast<double>(senses.now_ns) * 1e-9;
-  const Pose X_PD = X_AP_.inverse() * bearings_.X_DA().inverse();
-  tip_now_P_ = X_PD * (senses.X_DE * X_ET_).translation();
-  felt_N_ += kSharp * (-(X_PD.linear() * senses.f_fingers_D).z() - felt_N_);
   if (!senses.seen) return;
   if (senses.seen->running && senses.seen->trial != trial_)
     return beginTrial(senses.seen->trial, now_s);
   if (!senses.seen->running && step_ != PalpationStep::rest &&
       step_ != PalpationStep::travel) {  // paused or over: away from it
-    return goTo(Vec3(tip_P_.x(), tip_P_.y(), kHome), now_s, PalpationStep::rest);
+    return goTo(Vec3(at_P_.x(), at_P_.y(), kHome), now_s, PalpationStep::rest);
   }
   if (senses.seen->running && step_ == PalpationStep::rest && trial_ > 0 && !done_)
     return next(now_s);  // after a pause
@@ -105,27 +241,17 @@ void PalpatingHand::think(const Senses& senses) {
     case PalpationStep::rest:
       return;
     case PalpationStep::travel:
-      tip_P_ = move_.at(now_s).translation();
-      if (!move_.done(now_s)) return;
-      step_ = after_travel_;
-      since_s_ = now_s;
-      touched_ = false;
-      air_N_ = felt_N_;
-      resistance_N_ = 0;
-      z_ = tip_now_P_.z();
-      depths_.clear();
-      return;
+      return travel(now_s);
     case PalpationStep::press:
-      return pressing(now_s);
+      return press(now_s);
     case PalpationStep::overshoot:
-      tip_P_.z() -= skill_.press_speed * kThink_s;
+      lower(skill_.press_speed * kThink_s);
       if (now_s - since_s_ >= skill_.reaction) step_ = PalpationStep::lift;
       return;
     case PalpationStep::lift:
-      tip_P_.z() += kLift * kThink_s;
-      if (tip_P_.z() < kOverTop) return;
-      search_.felt(tip_now_P_, depths_);
-      return next(now_s);
+      return lift(now_s);
+    case PalpationStep::roll:
+      return roll(now_s);
     case PalpationStep::mark:
       if (now_s - since_s_ >= kMarkFor_s) step_ = PalpationStep::release, since_s_ = now_s;
       return;
@@ -135,32 +261,78 @@ void PalpatingHand::think(const Senses& senses) {
   }
 }
 
-Hand::Action PalpatingHand::act(const Senses& senses, double dt) {
+void PalpatingMind::look(std::size_t number, const Hand::Senses& senses, double dt) {
+  Finger& f = fingers_[number];
   const Vec3 p_D = senses.X_DE.translation();
-  hand_speed_ += ((p_D - p_last_D_).norm() / dt - hand_speed_) * std::min(1.0, dt / 0.05);
-  p_last_D_ = p_D;
-  if (senses.seen && (senses.now_ns - last_look_ns_ >= kGlance_ns || !bearings_.taken())) {
-    last_look_ns_ = senses.now_ns;
-    const bool first = !bearings_.taken();
-    bearings_.look(senses.seen->X_AT, senses.X_DE * X_ET_, skill_.look_sd, hand_speed_, noise_);
-    if (first) tip_P_ = X_AP_.inverse() * bearings_.X_AT().translation();
+  f.speed += ((p_D - f.p_last_D).norm() / dt - f.speed) * std::min(1.0, dt / 0.05);
+  f.p_last_D = p_D;
+  if (!senses.seen || (senses.now_ns - f.last_look_ns < kGlance_ns && f.bearings.taken())) return;
+  f.last_look_ns = senses.now_ns;
+  const bool first = !f.bearings.taken();
+  f.bearings.look(number == 0 ? senses.seen->X_AT : senses.seen->second_X_AT, senses.X_DE * X_ET_,
+                  skill_.look_sd, f.speed, f.noise);
+  if (!first) return;
+  const Vec3 tip_P = X_AP_.inverse() * f.bearings.X_AT().translation();
+  f.wanted_z = tip_P.z();
+  if (number == 0) at_P_ = tip_P;
+}
+
+void PalpatingMind::feel(Finger& f, const Hand::Senses& senses) {
+  const Pose X_PD = X_AP_.inverse() * f.bearings.X_DA().inverse();
+  f.tip_P = X_PD * (senses.X_DE * X_ET_).translation();
+  f.felt_N += kSharp * (-(X_PD.linear() * senses.f_fingers_D).z() - f.felt_N);
+}
+
+/// The first finger's time is when all are felt and thought about, the second one's as of a tick
+/// before.
+Hand::Action PalpatingMind::act(std::size_t number, const Hand::Senses& senses, double dt) {
+  Finger& f = fingers_[number];
+  look(number, senses, dt);
+  if (!f.bearings.taken()) return {senses.X_DE, 0, 0, {}};
+  if (senses.now_ns >= f.next_feeling_ns) {
+    f.next_feeling_ns = senses.now_ns + kThink_ns;
+    feel(f, senses);
+    if (number == 0) think(senses);
   }
-  if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
-  if (senses.now_ns >= next_thought_ns_) {
-    next_thought_ns_ = senses.now_ns + kThink_ns;
-    think(senses);
-  }
-  const Vec3 tip_P = tip_P_ + tremor_.next(dt);
-  Action action;
+  const Vec3 at_P = at_P_ + static_cast<double>(number) * search_.apart();
+  const Vec3 tip_P = Vec3(at_P.x(), at_P.y(), f.wanted_z) + f.tremor.next(dt);
+  Hand::Action action;
   action.X_DH =
-      bearings_.X_DA() * X_AP_ *
+      f.bearings.X_DA() * X_AP_ *
       makePose(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), tip_P) *
       X_TE_;
+  if (number > 0) return action;
   action.buttons = step_ == PalpationStep::mark ? 1u : 0u;
-  const bool says_now = word_.kind == WordKind::done ? step_ == PalpationStep::travel
-                                                     : step_ == PalpationStep::release;
-  if (says_now && word_.kind != WordKind::none) std::swap(action.says, word_);
+  const bool says_now = word_.kind == Hand::WordKind::done ? step_ == PalpationStep::travel
+                                                           : step_ == PalpationStep::release;
+  if (says_now && word_.kind != Hand::WordKind::none) std::swap(action.says, word_);
   return action;
+}
+
+class PalpatingFinger final : public Hand {
+ public:
+  PalpatingFinger(std::shared_ptr<PalpatingMind> mind, const HandGrip& grip, std::size_t number)
+      : mind_(std::move(mind)), grip_(grip), number_(number) {}
+  Action act(const Senses& senses, double dt) override { return mind_->act(number_, senses, dt); }
+  const HandGrip& grip() const override { return grip_; }
+
+ private:
+  std::shared_ptr<PalpatingMind> mind_;
+  HandGrip grip_;
+  std::size_t number_;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<Hand>> palpatingFingers(const PalpatingSkill& skill,
+                                                    const VisiblePhantom& phantom, const Pose& X_ET,
+                                                    int fingers, std::uint64_t seed) {
+  const auto count = static_cast<std::size_t>(fingers);
+  const auto mind = std::make_shared<PalpatingMind>(skill, phantom, X_ET, count, seed);
+  std::vector<std::unique_ptr<Hand>> all;
+  for (std::size_t i = 0; i < count; ++i)
+    all.push_back(std::make_unique<PalpatingFinger>(mind, skill.grip, i));
+  return all;
 }
 
 }  // namespace palpa::twin

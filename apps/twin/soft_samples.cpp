@@ -43,13 +43,25 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
   if (std::abs(one->table.tool_radius - radius_) > 1e-6)
     station.file.refuse("sample/tip_radius_mm", "is not that of the simulated samples");
   has_lump_ = one->block.lump.has_value();
-  phantom_.emplace(one->table, SiliconeLaw{});
+  phantom_.emplace(one->table, one->both, SiliconeLaw{});
+}
+
+Vec3 SampleTwin::lowestIn(const Pose& X_WT) const {
+  return X_WP_.inverse() * (X_WT * Vec3(0, 0, -radius_)) - radius_ * Vec3::UnitZ();
 }
 
 SampleTouch SampleTwin::step(const Pose& X_WT, double dt) {
-  const Vec3 middle_P = X_WP_.inverse() * (X_WT * Vec3(0, 0, -radius_)),
-             lowest_P = middle_P - radius_ * Vec3::UnitZ();
-  const PhantomTouch touch = phantom_->step(lowest_P, dt);
+  const Vec3 lowest_P = lowestIn(X_WT);
+  return told(phantom_->step(lowest_P, dt), lowest_P);
+}
+
+std::array<SampleTouch, 2> SampleTwin::step(const std::array<Pose, 2>& X_WT, double dt) {
+  const std::array<Vec3, 2> lowest_P{lowestIn(X_WT[0]), lowestIn(X_WT[1])};
+  const std::array<PhantomTouch, 2> touches = phantom_->step(lowest_P, dt);
+  return {told(touches[0], lowest_P[0]), told(touches[1], lowest_P[1])};
+}
+
+SampleTouch SampleTwin::told(const PhantomTouch& touch, const Vec3& lowest_P) const {
   SampleTouch told;
   told.f_W = X_WP_.linear() * touch.f;
   told.p_W = X_WP_ * lowest_P;

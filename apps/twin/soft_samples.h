@@ -15,7 +15,7 @@ struct SampleTouch {
   std::optional<Vec3> lump_W;  ///< m, how far its lump has moved; none without one
 };
 
-/// The soft sample on the virtual bench's table, and a round tip on it. W: the world.
+/// The soft sample on the virtual bench's table, and a round tip or two on it. W: the world.
 class SampleTwin {
  public:
   /// One of the station's simulated samples ("twin/samples": a file of assets/phantoms without its
@@ -25,12 +25,17 @@ class SampleTwin {
 
   /// The tool (z along it, T on its end) is there after another `dt`.
   SampleTouch step(const Pose& X_WT, double dt);
+  /// Of two tools on a sample without a lump.
+  std::array<SampleTouch, 2> step(const std::array<Pose, 2>& X_WT, double dt);
 
  private:
+  Vec3 lowestIn(const Pose& X_WT) const;  // in P
+  SampleTouch told(const PhantomTouch& touch, const Vec3& lowest_P) const;
+
   Pose X_WP_;
   double radius_ = 0;
   bool has_lump_ = false;
-  std::optional<PhantomTwin> phantom_;
+  std::optional<PhantomFingersTwin> phantom_;
 };
 
 /// A mass with a soft side toward each of two tools, on a stand from which it can be lifted: free

@@ -16,8 +16,11 @@ struct PalpationSample {
   double t_s = 0;
   Vec3 p_P = Vec3::Zero();  ///< the tip's lowest point
   double f_n = 0;           ///< how hard it is pressed
+  int tool = 0;             ///< 0: the first; 1: another finger's
 };
 using PalpationSamples = std::span<const PalpationSample>;
+/// Those of one of two tools.
+std::vector<PalpationSample> ofTool(PalpationSamples samples, int tool);
 
 /// "Here is one": where the trainee said so, and how it was graded (0: not graded).
 struct LumpMark {

@@ -109,10 +109,16 @@ void judgeQuadrants(const PalpationRules& rules, const std::vector<CaseLump>& lu
   }
 }
 
+/// Each tool's time counts for itself.
 void judgeForces(const PalpationRules& rules, PalpationSamples samples, PalpationScore* score) {
   double touched = 0, sum = 0, light = 0, hard = 0;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double dt = samples[i].t_s - samples[i - 1].t_s, f = samples[i].f_n;
+  std::array<double, 2> before{-1, -1};  // s
+  for (const PalpationSample& sample : samples) {
+    double& last = before[sample.tool & 1];
+    const double dt = sample.t_s - last, f = sample.f_n;
+    const bool first = last < 0;
+    last = sample.t_s;
+    if (first) continue;
     score->peak = std::max(score->peak, f);
     if (f < rules.touch) continue;
     touched += dt;
@@ -151,9 +157,10 @@ PalpationScore scorePalpation(const PalpationRules& rules, const std::vector<Cas
   for (std::size_t i = 0; i < kPressureLevels; ++i)
     score.coverage[i] = map.share(static_cast<int>(i) + 1);
   score.twice = map.twice();
-  const std::vector<Press> presses = pressesIn(samples, rules.touch);
+  std::vector<Press> presses = pressesIn(ofTool(samples, 0), rules.touch);
+  score.pattern = patternOf(presses, rules.area);  // another finger goes beside the first
+  for (const Press& press : pressesIn(ofTool(samples, 1), rules.touch)) presses.push_back(press);
   score.presses = static_cast<int>(presses.size());
-  score.pattern = patternOf(presses, rules.area);
   score.closer_force = closerForce(presses);
   judgeForces(rules, samples, &score);
   if (!samples.empty()) score.seconds = samples.back().t_s - samples.front().t_s;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "anatomy/base/pinned_math.h"
@@ -22,6 +23,13 @@ void add(Press* press, const PalpationSample& sample, const PalpationSample* bef
 }
 
 }  // namespace
+
+std::vector<PalpationSample> ofTool(PalpationSamples samples, int tool) {
+  std::vector<PalpationSample> its;
+  std::copy_if(samples.begin(), samples.end(), std::back_inserter(its),
+               [tool](const PalpationSample& sample) { return sample.tool == tool; });
+  return its;
+}
 
 std::vector<Press> pressesIn(PalpationSamples samples, double touch) {
   std::vector<Press> presses;

@@ -113,13 +113,16 @@ std::vector<double> lagrange(double t, int low, int high) {
 
 PairCell PairTable::at(const PhantomTable& one, double shift,
                        const std::array<double, 2>& depth) const {
-  PairCell each = alone(one, apart, shift, depth);
-  if (!(depth[0] > 0 && depth[1] > 0)) return each;
+  return cellOf(figuresOf(alone(one, apart, shift, depth)) + figuresOf(more(shift, depth)));
+}
+
+PairCell PairTable::more(double shift, const std::array<double, 2>& depth) const {
+  if (!(depth[0] > 0 && depth[1] > 0)) return {};
   const int far = shifts - 1;
   const auto ws = lagrange(std::clamp(shift / shift_step, -1.0 * far, 1.0 * far), -far, far);
   const auto w0 = lagrange(std::min(depth[0] / depth_step, 1.0 * depths), 0, depths),
              w1 = lagrange(std::min(depth[1] / depth_step, 1.0 * depths), 0, depths);
-  PairFigures sum = figuresOf(each);
+  PairFigures sum = PairFigures::Zero();
   for (int s = -far; s <= far; ++s) {
     for (int i = 1; i <= depths; ++i) {
       for (int j = 1; j <= depths; ++j)

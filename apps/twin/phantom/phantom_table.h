@@ -48,9 +48,11 @@ struct PairTable {
   /// [shift][depth of the first][depth of the second]: what both do more than each alone
   std::vector<PairCell> cells;
 
-  /// What each tool does alone, from `one`, and what both do more, by polynomials through all
-  /// cells; that is nothing where one does not press. A shift the other way is the mirror image
-  /// with the tools swapped. Depths and shifts beyond the cells are taken for the last ones.
+  /// What both do more than each alone, by polynomials through all cells; nothing where one does
+  /// not press. A shift the other way is the mirror image with the tools swapped. Depths and shifts
+  /// beyond the cells are taken for the last ones.
+  PairCell more(double shift, const std::array<double, 2>& depth) const;
+  /// What each tool does alone, from `one`, and that.
   PairCell at(const PhantomTable& one, double shift, const std::array<double, 2>& depth) const;
 };
 

@@ -48,13 +48,42 @@ Vec3 SiliconeContact::drag(const PhantomTouch& touch, const Vec3& dp, double dt)
   return drag_ + law_.B * along / dt;
 }
 
-PhantomTouch PhantomTwin::step(const Vec3& tip, double dt) {
+namespace {
+
+double depthOf(const Vec3& tip) { return std::max(0.0, -tip.z()); }
+
+/// Of the table, about its axis; `more`: elastic force beside the table's, N.
+PhantomTouch stepAlone(const PhantomTable& table, SiliconeContact& contact, const Vec3& tip,
+                       double dt, const Vec3& more = Vec3::Zero()) {
   const double away = tip.head<2>().norm();
   const Vec3 out = away > 0 ? Vec3(tip.x() / away, tip.y() / away, 0) : Vec3(Vec3::UnitX());
-  const PhantomCell cell = table_.at(away, std::max(0.0, -tip.z()));
-  PhantomTouch touch = contact_.step(cell.f_out * out + cell.f_up * Vec3::UnitZ(), tip, dt);
+  const PhantomCell cell = table.at(away, depthOf(tip));
+  PhantomTouch touch = contact.step(cell.f_out * out + cell.f_up * Vec3::UnitZ() + more, tip, dt);
   touch.lump = cell.lump_out * out + cell.lump_up * Vec3::UnitZ();
   return touch;
+}
+
+}  // namespace
+
+PhantomTouch PhantomTwin::step(const Vec3& tip, double dt) {
+  return stepAlone(table_, contact_, tip, dt);
+}
+
+PhantomTouch PhantomFingersTwin::step(const Vec3& tip, double dt) {
+  return stepAlone(one_, contacts_[0], tip, dt);
+}
+
+std::array<PhantomTouch, 2> PhantomFingersTwin::step(const std::array<Vec3, 2>& tips, double dt) {
+  const Vec3 between(tips[0].x() - tips[1].x(), tips[0].y() - tips[1].y(), 0);
+  const double distance = std::max(between.norm(), both_.apart / 2);
+  const PairCell more = both_.more(0, {depthOf(tips[0]), depthOf(tips[1])});
+  std::array<PhantomTouch, 2> touches;
+  for (std::size_t t = 0; t < 2; ++t)
+    touches[t] =
+        stepAlone(one_, contacts_[t], tips[t], dt,
+                  both_.apart / distance *
+                      (more.f[t].x() * between / distance + more.f[t].y() * Vec3::UnitZ()));
+  return touches;
 }
 
 std::array<PhantomTouch, 2> PhantomPairTwin::step(const std::array<Vec3, 2>& tips, double dt) {
@@ -64,8 +93,8 @@ std::array<PhantomTouch, 2> PhantomPairTwin::step(const std::array<Vec3, 2>& tip
       std::abs(tips[0].y()) > kLevel)
     throw Error("two tools on a simulated phantom must stay side by side over its middle",
                 "phantom", "lead them so");
-  const PairCell cell = both_.at(one_, 0.5 * (tips[0].x() + tips[1].x()),
-                                 {std::max(0.0, -tips[0].z()), std::max(0.0, -tips[1].z())});
+  const PairCell cell =
+      both_.at(one_, 0.5 * (tips[0].x() + tips[1].x()), {depthOf(tips[0]), depthOf(tips[1])});
   std::array<PhantomTouch, 2> touches;
   for (std::size_t t = 0; t < 2; ++t) {
     touches[t] = contacts_[t].step(Vec3(cell.f[t].x(), 0, cell.f[t].y()), tips[t], dt);

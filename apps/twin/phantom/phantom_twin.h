@@ -78,4 +78,24 @@ class PhantomPairTwin {
   std::array<SiliconeContact, 2> contacts_;
 };
 
+/// A phantom without a lump under two tools anywhere on it, like fingers. What both do more than
+/// each alone is that of two side by side over the middle, along the line between them and less
+/// the farther they are apart: by apart/distance, as a half space sinks beside a load (Johnson,
+/// Contact Mechanics, 1985, 3.2); closer than half of `apart` as there.
+class PhantomFingersTwin {
+ public:
+  PhantomFingersTwin(PhantomTable one, PairTable both, const SiliconeLaw& law)
+      : one_(std::move(one)),
+        both_(std::move(both)),
+        contacts_{SiliconeContact(law), SiliconeContact(law)} {}
+  /// The first alone.
+  PhantomTouch step(const Vec3& tip, double dt);
+  std::array<PhantomTouch, 2> step(const std::array<Vec3, 2>& tips, double dt);
+
+ private:
+  PhantomTable one_;
+  PairTable both_;
+  std::array<SiliconeContact, 2> contacts_;
+};
+
 }  // namespace palpa::twin

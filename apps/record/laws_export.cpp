@@ -1,0 +1,83 @@
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/record/session_file.h"
+
+namespace palpa::record {
+namespace {
+
+using nlohmann::json;
+
+json jsonOf(const haptics::HuntCrossley& law) {
+  return {{"k", law.k}, {"b", law.b}, {"m", law.m}};
+}
+json jsonOf(const haptics::Dahl& law) {
+  return {{"mu", law.mu}, {"sigma_N_per_m", law.sigma}, {"B_Ns_per_m", law.B}};
+}
+json jsonOf(const PackedPose& X) { return {{"p_m", X.p}, {"q_wxyz", X.q}}; }
+
+json surfaceOf(const haptics::TouchAugmentation& touch) {
+  const haptics::StiffnessModulation& contact = touch.surface.contact;
+  json surface{{"H", jsonOf(contact.real)},
+               {"x0_m", contact.x0},
+               {"friction", jsonOf(contact.friction)},
+               {"factor", contact.target.factor},
+               {"constant_N_per_m", contact.target.constant},
+               {"least_contact_N", contact.least_contact}};
+  if (touch.other_friction) surface["wanted_friction"] = jsonOf(touch.surface.wanted);
+  return surface;
+}
+
+json kindsOf(const haptics::TouchAugmentation& touch) {
+  json kinds = json::array();
+  for (const haptics::VirtualInclusion& kind : touch.kinds) {
+    if (!(kind.l0 > 0)) continue;
+    kinds.push_back({{"l0_m", kind.l0},
+                     {"H_T", jsonOf(kind.H_T)},
+                     {"G", {jsonOf(kind.G[0]), jsonOf(kind.G[1]), jsonOf(kind.G[2])}}});
+  }
+  return kinds;
+}
+
+/// Of each trial as its first tick has them.
+json lumpsOf(const SessionReader& reader) {
+  std::map<std::uint32_t, haptics::PlacedLumps> trials;
+  reader.ticks([&](const haptics::FlightRecord& record) {
+    trials.emplace(record.commands.trial, record.commands.lumps);
+  });
+  json all = json::object();
+  for (const auto& [trial, lumps] : trials) {
+    json placed = json::array();
+    for (const haptics::PlacedLump& lump : lumps)
+      if (lump.kind > 0) placed.push_back({{"kind", lump.kind}, {"p_P_m", lump.p_T0}});
+    if (trial > 0) all[std::to_string(trial)] = placed;
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string lawsJson(const SessionReader& reader) {
+  const haptics::TickConfig& config = reader.info().tick_config;
+  if (config.contact_mode != haptics::ContactMode::sensed_object) return "";
+  const std::optional<haptics::PairConfig>& pair = reader.info().pair_config;
+  json laws{{"about",
+             "What is added to a real thing, frame P of which the lumps' places are; SI units. "
+             "H, H_T, G: f = x^m max(k + b x', k / 10). Equations: Jeon, Choi and Harders, Haptic "
+             "augmented reality (2015), 10.4 to 10.21"},
+            {"period_s", 1e-9 * static_cast<double>(config.period_ns)},
+            {"tip_radius_m", config.touch.tip_radius},
+            {"X_DP", json::array({jsonOf(config.X_DP)})},
+            {"surface", surfaceOf(config.touch)},
+            {"kinds", kindsOf(config.touch)},
+            {"lumps", lumpsOf(reader)}};
+  if (pair) laws["X_DP"].push_back(jsonOf(pair->tools[1].X_DP));
+  if (pair && pair->squeezing)
+    laws["squeeze"] = {{"H", jsonOf(pair->squeeze.real)},
+                       {"x0_m", pair->squeeze.x0},
+                       {"least_contact_N", pair->squeeze.least_contact}};
+  return laws.dump(1);
+}
+
+}  // namespace palpa::record
