@@ -30,7 +30,7 @@ struct EyeCamera {
   Pose X_CA = Pose::Identity();
 };
 
-enum class ForceKind { reaction, weight, device };
+enum class ForceKind { reaction, weight, device, felt };  ///< felt: their sum
 /// paper: grays, as Jeon, Choi and Harders (2015) have them. safe: colours of Okabe and Ito (2008),
 /// told apart by colour-blind eyes and by brightness.
 enum class ForceColours { paper, safe };
@@ -157,7 +157,7 @@ struct SceneState {
   /// where the trainee said "here is one": pins, numbered from 1 in this order
   std::vector<Vec3> marks_A;
   std::optional<Vec3> lead_A;  ///< where guidance asks the hand to go next: a ring on the surface
-  std::optional<Pose> second_X_AT;  ///< another probe beside the tool; AR view only
+  std::optional<Pose> second_X_AT;  ///< another probe beside the tool
   /// Where the body is that is shown as made in A: a thing in the hands moves. AR view only, and
   /// not while it is translucent
   Pose X_AB = Pose::Identity();

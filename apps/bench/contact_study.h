@@ -84,6 +84,7 @@ double squeezeError(const twin::PhantomTable& side, const calibration::SoftConta
 /// motions above the lump's place and beside it.
 struct PlainTouches {
   int tools = 1;
+  const char* motion = "any";
   std::vector<std::array<PhantomTick, 2>> ticks;  ///< the second of one tool is nowhere
 };
 /// With one tool, or with two side by side that press together, in turn, and stroke.

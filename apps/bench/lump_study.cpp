@@ -15,7 +15,8 @@ constexpr double kPairDeep = 6e-3, kPairLight = 1.5e-3, kAbovePlain = 2e-3;  // 
 constexpr double kLeastPressed = 0.1;                                        // N
 constexpr std::uint64_t kLumpSeen = 11, kLumpFresh = 111;                    // seeds
 
-/// As a person records it: above the lump, and on four sides of it.
+/// As a person records it (`palpa calibrate inclusion`): above the lump, on four sides of it, and
+/// stroking over it.
 calibration::LumpContact identify(const twin::Phantom& lumped, const KnownPhantom& known,
                                   Noise noise) {
   const twin::PhantomTwin twin(lumped.table, {});
@@ -27,6 +28,8 @@ calibration::LumpContact identify(const twin::Phantom& lumped, const KnownPhanto
   };
   record(twin::pressing(Vec3::Zero(), kLumpDeep, kLumpSeen), kLumpSeen);
   record(twin::tapping(Vec3::Zero(), kLumpDeep, kLumpSeen + 1), kLumpSeen + 1);
+  record(twin::stroking(Vec3::Zero(), kLumpDeep, kOver, Vec3(0, 1, 0), kLumpSeen + 20),
+         kLumpSeen + 20);
   std::uint64_t seed = kLumpSeen + 2;
   for (const Vec3& side :
        {Vec3(kBeside, 0, 0), Vec3(0, kBeside, 0), Vec3(-kBeside, 0, 0), Vec3(0, -kBeside, 0)}) {
@@ -45,9 +48,9 @@ std::vector<LedTip> oneTool() {
           twin::stroking(Vec3::Zero(), kLumpDeep, kOver, Vec3(0.8, 0.6, 0), kLumpFresh + 3)};
 }
 
-/// Two fingers: together, in turn, and over the lump and back; the shift is of the middle between
-/// them.
-std::vector<LedPair> twoTools(double apart) {
+/// Two fingers: side by side, rolling the lump in turn, and over it and back; the shift is of the
+/// middle between them.
+std::vector<std::pair<const char*, LedPair>> twoTools(double apart) {
   LedPair together(0.009, apart), in_turn(0.007, apart), stroke(-0.01, apart);
   for (const double depth : {0.5 * kPairDeep, 0.8 * kPairDeep, kPairDeep})
     together.go(0.009, {depth, depth}, 0.5, 0.3).go(0.009, {-kAbovePlain, -kAbovePlain}, 0.4);
@@ -61,7 +64,7 @@ std::vector<LedPair> twoTools(double apart) {
         .go(0.01, {depth, depth}, 0.9)
         .go(-0.01, {depth, depth}, 0.8);
   stroke.go(-0.01, {-kAbovePlain, -kAbovePlain}, 0.4);
-  return {together, in_turn, stroke};
+  return {{"side by side", together}, {"rolled", in_turn}, {"stroked", stroke}};
 }
 
 /// The led tip is the lowest point of an upright tool.
@@ -92,15 +95,16 @@ std::vector<PlainTouches> touchPlain(const twin::Phantom& plain, int tools, Nois
   std::uint64_t seed = kLumpFresh;
   if (tools == 1) {
     for (const LedTip& tip : oneTool()) {
-      PlainTouches& touches = all.emplace_back(PlainTouches{1, {}});
+      PlainTouches& touches = all.emplace_back(PlainTouches{1, "any", {}});
       for (const PhantomTick& tick :
            recordTouch(twin::PhantomTwin(plain.table, {}), tip, noise, seed++))
         touches.ticks.push_back({tick, {}});
     }
   } else {
-    for (const LedPair& pair : twoTools(plain.both.apart))
-      all.push_back({2, recordTouches(twin::PhantomPairTwin(plain.table, plain.both, {}), pair,
-                                      noise, seed++)});
+    for (const auto& [motion, pair] : twoTools(plain.both.apart))
+      all.push_back(
+          {2, motion,
+           recordTouches(twin::PhantomPairTwin(plain.table, plain.both, {}), pair, noise, seed++)});
   }
   return all;
 }

@@ -79,6 +79,12 @@ void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
       print("inclusion_position_error_mm", figures.position_mm, "mm", params);
       print("solver_iterations_max", figures.iterations, "1", params);
     }
+    for (const PlainTouches& touches : plain[1]) {
+      nlohmann::json params = paramsOf(noise);
+      params["mockup"] = phantoms[i].name;
+      params["motion"] = touches.motion;
+      print("two_tools_rel_rms", lumpFigures({touches}, phantoms[i], law).error, "1", params);
+    }
   }
 }
 

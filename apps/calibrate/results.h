@@ -89,8 +89,8 @@ Result materialResult(const FeltSamples& presses, const Origin& origin);
 /// What its surface rubs with, from strokes; judged by the last quarter of them.
 Result frictionResult(const FeltSamples& strokes, const Origin& origin);
 /// What a lump adds to it. `without`: presses of a sample without one; `strokes` of it (none:
-/// friction is neglected); `above`, `beside`: of one with a lump `depth` below the middle of its
-/// top; judged by `check`, presses at a place not used.
+/// friction is neglected); `above`, `beside` (strokes over it, too): of one with a lump `depth`
+/// below the middle of its top; judged by `check`, presses at a place not used.
 struct LumpSamples {
   FeltSamples without, strokes, above;
   std::vector<FeltSamples> beside;

@@ -101,7 +101,8 @@ double lumpDepthOf(const station::Station& station, const std::string& mockup) {
                    "\"" + mockup + "\"", "There are: " + listed(known, "and"));
 }
 
-/// Without the lump, above it, on four sides of it, and beside it once more to judge by.
+/// Without the lump, above it, on four sides of it, stroking over it, and beside it once more to
+/// judge by.
 LumpSamples collectLump(const Scene& scene, const std::string& mockup) {
   constexpr double kBeside = 8e-3, kJudgedAt = 5e-3;  // m
   LumpSamples samples;
@@ -112,6 +113,7 @@ LumpSamples collectLump(const Scene& scene, const std::string& mockup) {
   for (const FeltPlace& place : {FeltPlace{kBeside, 0}, FeltPlace{0, kBeside},
                                  FeltPlace{-kBeside, 0}, FeltPlace{0, -kBeside}})
     samples.beside.push_back(collectPresses(scene, mockup, place, kPressLumpFor_s));
+  samples.beside.push_back(collectStrokes(scene, mockup, kStrokeLumpFor_s));
   samples.check =
       collectPresses(scene, mockup, {kJudgedAt * 0.8, kJudgedAt * 0.6}, kPressLumpFor_s);
   return samples;

@@ -234,7 +234,7 @@ void addFiles(CLI::App* command, CalibrateOptions* o) {
     file("--without", &o->without, "Recorded presses of the sample without the lump");
     file("--strokes", &o->strokes, "Recorded strokes of it: for a hand that is not quite still");
     file("--above", &o->above, "Recorded presses above the lump");
-    file("--beside", &o->beside, "Recorded presses beside it");
+    file("--beside", &o->beside, "Recorded presses beside it, and strokes over it");
     file("--check", &o->check, "Recorded presses at another place, to check the result");
     command->add_option("--depth-mm", o->depth_mm, "How deep the lump's middle lies")
         ->check(inRange(1.0, 200.0, "mm"));

@@ -53,6 +53,8 @@ constexpr const char* kPalpationExamples = R"(Examples:
       the liver's edge is felt in every case, and is not a lump
   palpa palpation --preset prostate --operator novice --trials 8 --fast
       a smaller phantom, eight cases: the fewest on which a trainee passes or fails
+  palpa palpation --tools 2 --operator expert --fast
+      two fingers side by side, each on a device of its own; what is found is rolled between them
   palpa palpation --station my_station.json --guidance on --trials 16
       you, on a station with a haptic device and a force sensor; help that fades; every other case is without it
   palpa palpation

@@ -9,9 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-json jsonOf(const haptics::HuntCrossley& law) {
-  return {{"k", law.k}, {"b", law.b}, {"m", law.m}};
-}
+json jsonOf(const haptics::HuntCrossley& law) { return {{"k", law.k}, {"b", law.b}, {"m", law.m}}; }
 json jsonOf(const haptics::Dahl& law) {
   return {{"mu", law.mu}, {"sigma_N_per_m", law.sigma}, {"B_Ns_per_m", law.B}};
 }

@@ -231,8 +231,9 @@ void addCues(std::vector<ExportColumn>& columns) {
                      [](const FlightRecord& r) { return std::to_string(r.augmenting); }});
   columns.push_back({{"cues_begun", "of these, those that were triggered in this tick"},
                      [](const FlightRecord& r) { return std::to_string(r.began); }});
-  columns.push_back({{"place", "where on a floor, bits: see the record's README"},
-                     [](const FlightRecord& r) { return std::to_string(r.place); }});
+  columns.push_back(
+      {{"place", "on a floor, bits: element + 1 (1, 2), 4 texture, 8 pit, 16 touching"},
+       [](const FlightRecord& r) { return std::to_string(r.place); }});
 }
 
 void addContact(std::vector<ExportColumn>& columns) {

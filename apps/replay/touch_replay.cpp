@@ -149,7 +149,7 @@ class SqueezeReplay final : public TrialReplay {
   SqueezeReplay(const ShownSqueeze& trial, scene::SceneView& view)
       : TrialReplay(trial, trial.length_s()),
         recorded_(trial),
-        scene_({stage(view), trial.X_AD2, trial.middle_A}, bus_, channels_) {}
+        scene_({stage(view), trial.X_AD2, trial.middle_A, true}, bus_, channels_) {}
 
  private:
   void showAt(double t_s, std::int64_t now_ns) override {

@@ -295,6 +295,9 @@ ReportHead PalpationWorld::head(const SessionOptions& options) const {
   head.force_note = forceNote();
   head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
+  if (options.tools == 2)
+    head.station.push_back(
+        {"Tools", "two fingers side by side", "each lump is solved under both; each is judged"});
   for (report::Fact& fact : lumpFacts(task.library)) head.station.push_back(std::move(fact));
   head.parts = meaningsOf(task.augmentations);
   head.doses = noDoses(tickConfig(options).augmentations, task.augmentations);

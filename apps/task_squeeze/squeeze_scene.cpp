@@ -1,5 +1,6 @@
 #include "apps/task_squeeze/squeeze_scene.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace palpa::task_squeeze {
@@ -7,6 +8,34 @@ namespace palpa::task_squeeze {
 Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, bool held) {
   return held ? makePose(Mat3::Identity(), 0.5 * (first_A + second_A) - middle_A)
               : Pose::Identity();
+}
+
+std::vector<scene::ForceArrow> squeezeForces(const std::array<ShownTool, 2>& tools, bool apart) {
+  constexpr double kShown_N = 0.05;
+  const Vec3 at_handle_T(0, 0, -0.11), beside_T(0, 0, -0.06);
+  const Vec3 between = tools[0].X_AT.translation() - tools[1].X_AT.translation();
+  if (!(between.norm() > 0)) return {};
+  const Vec3 l = between.normalized();
+  std::array<Vec3, 2> device, shown;
+  for (std::size_t t = 0; t < 2; ++t) {
+    const Mat3 R_AD = tools[t].X_AD.rotation();
+    device[t] = R_AD * unpack(tools[t].tool.f_command_D);
+    shown[t] = R_AD * unpack(tools[t].tool.f_sensed_D) + (apart ? Vec3::Zero() : device[t]);
+  }
+  std::vector<scene::ForceArrow> all;
+  const auto show = [&all](scene::ForceKind kind, const Vec3& p_A, const Vec3& f_A) {
+    if (f_A.norm() > kShown_N) all.push_back({kind, p_A, f_A});
+  };
+  const double F = std::max(0.5 * (shown[0] - shown[1]).dot(l), 0.0);
+  for (std::size_t t = 0; t < 2; ++t) {
+    const Vec3 squeezing = (t == 0 ? F : -F) * l, tip = tools[t].X_AT.translation();
+    show(scene::ForceKind::reaction, tip, squeezing);
+    show(scene::ForceKind::weight, tip, shown[t] - squeezing);
+    if (!apart) continue;
+    show(scene::ForceKind::device, tools[t].X_AT * at_handle_T, device[t]);
+    show(scene::ForceKind::felt, tools[t].X_AT * beside_T, shown[t] + device[t]);
+  }
+  return all;
 }
 
 SqueezeScene::SqueezeScene(const SqueezeSceneSetup& setup, runtime::Bus& bus,
@@ -25,21 +54,14 @@ const trial::TrialStatus& SqueezeScene::readStatus(std::int64_t now_ns) {
 
 void SqueezeScene::compose(scene::SceneState& state, const runtime::ToolState& tool,
                            const std::string& trouble) {
-  constexpr double kShown_N = 0.05;
   state.tool = scene::Tool::probe;
   state.skin = scene::SkinStyle::solid;
   state.second_X_AT = X_AD2_ * unpack(second_.X_DT);
   state.X_AB = heldPlace(state.X_AT.translation(), state.second_X_AT->translation(),
                          setup_.middle_A, status_.held);
   state.hud = words(tool, trouble);
-  state.forces.clear();
-  const auto show = [&](const runtime::ToolState& of, const Pose& X_AD, const Pose& X_AT) {
-    const Vec3 felt_A = X_AD.rotation() * (unpack(of.f_sensed_D) + unpack(of.f_command_D));
-    if (felt_A.norm() > kShown_N)
-      state.forces.push_back({scene::ForceKind::reaction, X_AT.translation(), felt_A});
-  };
-  show(tool, X_AD(), state.X_AT);
-  show(second_, X_AD2_, *state.second_X_AT);
+  state.forces = squeezeForces(
+      {{{tool, X_AD(), state.X_AT}, {second_, X_AD2_, *state.second_X_AT}}}, setup_.apart);
 }
 
 void SqueezeScene::addTo(runtime::Displayed& displayed, const runtime::ToolState&) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "apps/task_squeeze/squeeze_task.h"
 #include "apps/trial/trial_scene.h"
 
@@ -10,6 +13,7 @@ struct SqueezeSceneSetup {
   trial::TrialScene::Stage stage;
   Pose X_WD2 = Pose::Identity();  ///< the second device's base
   Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
+  bool apart = false;             ///< what the devices add is shown apart: a replay
 };
 
 /// What is seen of a comparison: the object, moving with the fingers that hold it, both tools, what
@@ -32,6 +36,19 @@ class SqueezeScene final : public trial::TrialScene {
   SqueezeStatus status_;
   runtime::ToolState second_;
 };
+
+/// A tool as it is drawn.
+struct ShownTool {
+  runtime::ToolState tool;
+  Pose X_AD = Pose::Identity(), X_AT = Pose::Identity();
+};
+/// The arrows at both tools, N, in A, as in Jeon, Choi and Harders (2015), their figures 10.6 and
+/// 10.7: squeezing and weight at each tip, as they are felt, the first tool's by (10.12) to
+/// (10.14):
+///     F = (f_1 - f_2) . l / 2,   u_1 = l = -u_2,   reaction F u_*,   weight f_* - F u_*
+/// `apart`: these of the real thing alone, what the devices add at the handles, and beside it the
+/// sum that is felt. Weaker ones than 0.05 N are not shown.
+std::vector<scene::ForceArrow> squeezeForces(const std::array<ShownTool, 2>& tools, bool apart);
 
 /// Where the object is shown, as moved from where it rests: between the tips that hold it.
 Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, bool held);

@@ -83,6 +83,8 @@ Rgb arrowColour(ForceKind kind, ForceColours colours) {
       return safe ? Rgb{0.835, 0.369, 0.000} : Rgb{0.22, 0.22, 0.22};  // vermilion
     case ForceKind::weight:
       return safe ? Rgb{0.337, 0.706, 0.914} : Rgb{0.50, 0.50, 0.50};  // sky blue
+    case ForceKind::felt:
+      return {0.02, 0.02, 0.02};
     case ForceKind::device:
       break;
   }
@@ -100,6 +102,8 @@ const char* name(ForceKind kind) {
       return "reaction";
     case ForceKind::weight:
       return "weight";
+    case ForceKind::felt:
+      return "felt";
     case ForceKind::device:
       break;
   }

@@ -39,6 +39,6 @@ class ForceArrows {
 
 Rgb arrowColour(ForceKind kind, ForceColours colours);
 Rgb arrowOutline(ForceKind kind);
-const char* name(ForceKind kind);  ///< "device", "weight", "reaction"
+const char* name(ForceKind kind);  ///< "device", "weight", "reaction", "felt"
 
 }  // namespace palpa::scene

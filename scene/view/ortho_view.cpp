@@ -34,6 +34,7 @@ OrthoView::OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, c
       backdrop_(*renderer_, false),
       search_(*renderer_, *renderer_, 1.6),
       tool_(*renderer_),
+      other_probe_(*renderer_),
       plates_(*renderer_) {
   setUpRenderer(*renderer_, colour::kPanel);
   organs_.setInside(inside);
@@ -126,6 +127,7 @@ void OrthoView::prepareStill() {
   organs_.setVisible(true);
   if (section_) section_->VisibilityOn();
   tool_.hide();
+  other_probe_.hide();
   search_.update({}, false, {}, 1);
   if (trail_) trail_->VisibilityOff();
   plates_.setVisible(true);
@@ -161,10 +163,15 @@ Sight OrthoView::sight() const {
 void OrthoView::update(const SceneState& state) {
   search_.update(state, true, sight(), kPinSmall_px * window_height_ / 720.0);
   tool_.update(state.X_AT);
+  other_probe_.update(state.second_X_AT.value_or(state.X_AT));
   if (state.show_tool)
     tool_.show(state.tool);
   else
     tool_.hide();
+  if (state.show_tool && state.second_X_AT)
+    other_probe_.show(Tool::probe);
+  else
+    other_probe_.hide();
 }
 
 }  // namespace palpa::scene

@@ -62,7 +62,7 @@ class OrthoView {
   vtkSmartPointer<vtkActor> section_;
   Backdrop backdrop_;
   SearchOverlay search_;
-  InstrumentSilhouette tool_;
+  InstrumentSilhouette tool_, other_probe_;
   Plates plates_;
   vtkSmartPointer<vtkActor> trail_;
   std::vector<std::unique_ptr<Label>> words_;

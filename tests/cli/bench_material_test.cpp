@@ -56,6 +56,19 @@ void expectLumps(const Lines& lines, int contacts) {
   EXPECT_LE(worst(lines, "solver_iterations_max"), 24);
 }
 
+/// Of every mock-up under two tools.
+double worstOf(const Lines& lines, const std::string& motion) {
+  double most = 0;
+  std::size_t count = 0;
+  for (const auto& line : lines) {
+    if (line["metric"] != "two_tools_rel_rms" || line["params"]["motion"] != motion) continue;
+    most = std::max(most, line["value"].get<double>());
+    ++count;
+  }
+  EXPECT_EQ(count, test::counted<std::size_t>(3, 8)) << motion;
+  return most;
+}
+
 TEST(BenchMaterial, HoldsWhatIsPromised) {
   const Folder here;
   std::vector<std::string> arguments{"bench", "material"};
@@ -74,6 +87,8 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_LE(worst(lines, "friction_rel_error"), 0.07);
   expectLumps(lines, 1);
   expectLumps(lines, 2);
+  EXPECT_LE(worstOf(lines, "side by side"), 0.09);
+  EXPECT_LE(worstOf(lines, "rolled"), 0.12);
   EXPECT_EQ(valuesOf(lines, "har_tick_hot_median").size(), 1u);
   ASSERT_EQ(valuesOf(lines, "har_tick_pushed").size(), 1u);
   EXPECT_GE(valuesOf(lines, "har_tick_pushed")[0], 0.9) << "what was timed did something";
@@ -93,6 +108,8 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_LE(worst(cleared, "squeeze_rel_error"), 0.07);
   expectLumps(cleared, 1);
   expectLumps(cleared, 2);
+  for (const char* motion : {"side by side", "rolled", "stroked"})
+    EXPECT_LE(worstOf(cleared, motion), 0.15) << motion;
   EXPECT_EQ(valuesOf(cleared, "hand_still_mm_s").size(), 26u);
   EXPECT_LE(worst(cleared, "hand_still_mm_s"), 2);
   EXPECT_LE(worst(cleared, "hand_gained_mJ"), 0.1);

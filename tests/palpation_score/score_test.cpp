@@ -24,6 +24,26 @@ TEST(PalpationScore, MarksFindWhatIsNear) {
   EXPECT_EQ(score.sensitivity(), 0.5);
 }
 
+/// A second finger that presses beside the first, in the same time.
+TEST(PalpationScore, TwoFingersFeelTwiceTheAreaInTheSameTime) {
+  const Search first = inStrips(0.012, 0.006, 0.7);
+  std::vector<PalpationSample> both;
+  for (const PalpationSample& sample : first.samples()) {
+    both.push_back(sample);
+    both.push_back({sample.t_s, sample.p_P + Vec3(0.018, 0, 0), 2 * sample.f_n, 1});
+  }
+  PalpationRules rules;
+  rules.levels = {0.15, 0.3, 0.6};
+  const PalpationScore one = scorePalpation(rules, {}, first.samples(), {}),
+                       two = scorePalpation(rules, {}, both, {});
+  EXPECT_EQ(two.seconds, one.seconds);
+  EXPECT_EQ(two.presses, 2 * one.presses);
+  EXPECT_GT(two.coverage[0], 1.4 * one.coverage[0]);
+  EXPECT_NEAR(two.peak, 2 * one.peak, 1e-12);
+  EXPECT_NEAR(two.mean, 1.5 * one.mean, 0.05 * one.mean) << "over both fingers' time";
+  EXPECT_EQ(two.pattern.pattern, one.pattern.pattern) << "a finger beside the first is no pattern";
+}
+
 TEST(PalpationScore, NormalAnatomyThatIsMarkedIsAFalseAlarmOfItsOwn) {
   PalpationRules rules;
   rules.normal = {{"a rib", {Vec3(-0.02, 0.01, 0), Vec3(0.02, 0.01, 0)}, 0.01}};

@@ -104,5 +104,54 @@ TEST(PhantomPairTwin, ToolsThatAreNotSideBySideAreRefused) {
   EXPECT_THROW(twin.step({Vec3(0.012, 1e-3, -3e-3), Vec3(-0.008, 1e-3, -2e-3)}, 1e-3), Error);
 }
 
+const SiliconeLaw kElastic{.relaxes = {0, 0}};
+
+/// What each of two fingers feels beyond what it feels alone, N, as the force on each.
+std::array<Vec3, 2> beyondAlone(const std::array<Vec3, 2>& tips) {
+  std::array<Vec3, 2> f;
+  const auto both = PhantomFingersTwin(springs(), pairsOfLaw(), kElastic).step(tips, 1e-3);
+  for (std::size_t t = 0; t < 2; ++t)
+    f[t] = both[t].f - PhantomTwin(springs(), kElastic).step(tips[t], 1e-3).f;
+  return f;
+}
+
+TEST(PhantomFingersTwin, SideBySideIsThePairsAndTurnedWithTheLineBetweenThem) {
+  const PairCell law = more(0, 3e-3, 2e-3);
+  const std::array<Vec3, 2> along_x = beyondAlone({Vec3(0.01, 0, -3e-3), Vec3(-0.01, 0, -2e-3)}),
+                            along_y = beyondAlone(
+                                {Vec3(0.004, 0.013, -3e-3), Vec3(0.004, -0.007, -2e-3)});
+  for (std::size_t t = 0; t < 2; ++t) {
+    EXPECT_LT((along_x[t] - Vec3(law.f[t].x(), 0, law.f[t].y())).norm(), 1e-9);
+    EXPECT_LT((along_y[t] - Vec3(0, law.f[t].x(), law.f[t].y())).norm(), 1e-9);
+  }
+  const std::array<Vec3, 2> far = beyondAlone({Vec3(0.02, 0, -3e-3), Vec3(-0.02, 0, -2e-3)});
+  EXPECT_LT((far[0] - 0.25 * along_x[0]).norm(), 1e-9) << "twice as far, a quarter of it";
+  EXPECT_LT(beyondAlone({Vec3(0.01, 0, -3e-3), Vec3(-0.01, 0, 1e-3)})[0].norm(), 1e-12)
+      << "one alone";
+}
+
+/// Of a plain block, nearer and farther than the fingers of the table.
+TEST(PhantomFingersTwin, IsAboutWhatTheElementsSayAtOtherDistances) {
+  if (!test::fullCounts()) GTEST_SKIP() << "its elements take a minute: ./check --full";
+  const SoftBlock block;
+  PhantomTable one;
+  one.aways = 6;
+  one.depths = 6;
+  one = tabulate(block, one, kRough);
+  PairTable both;
+  both.shifts = 1;
+  both.depths = 3;
+  both = tabulatePairs(block, one, both, kRough);
+  for (const double apart : {0.016, 0.026}) {
+    const double half = 0.5 * apart;
+    FiniteBlock solid(block, {-half, half}, one.tool_radius, kRough);
+    const std::array<Vec3, 2> tips{Vec3(half, 0, -5e-3), Vec3(-half, 0, -5e-3)};
+    const BlockResponse told = solid.press({tips[0], tips[1]});
+    const double alone = one.at(half, 5e-3).f_up, takes = alone - told.f[0].z(),
+                 said = alone - PhantomFingersTwin(one, both, kElastic).step(tips, 1e-3)[0].f.z();
+    EXPECT_NEAR(said, takes, 0.005 * alone) << apart << ": the neighbour takes 5 to 13 % of it";
+  }
+}
+
 }  // namespace
 }  // namespace palpa::twin

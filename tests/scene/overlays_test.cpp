@@ -170,7 +170,9 @@ TEST(ForceColours, AreToldApartByBrightnessAloneInBothSchemes) {
   for (const ForceColours scheme : {ForceColours::paper, ForceColours::safe}) {
     const double reaction = luminance(arrowColour(ForceKind::reaction, scheme)),
                  weight = luminance(arrowColour(ForceKind::weight, scheme)),
-                 device = luminance(arrowColour(ForceKind::device, scheme));
+                 device = luminance(arrowColour(ForceKind::device, scheme)),
+                 felt = luminance(arrowColour(ForceKind::felt, scheme));
+    EXPECT_GT(reaction - felt, 0.04);
     EXPECT_GT(weight - reaction, 0.1);
     EXPECT_GT(device - weight, 0.2);
   }

@@ -49,6 +49,34 @@ TEST(PalpationListener, HearsPlaceAndBothForces) {
   EXPECT_NEAR(listener.samples()[0].f_n, 0.5, 1e-9);
 }
 
+/// Both fingers in the same ticks, the second on a device that stands elsewhere.
+TEST(PalpationListener, OfTwoFingersEachIsFeltForItselfAndTheFirstOnesClockAndButtonCount) {
+  haptics::PairConfig pair;
+  pair.tools = {config(), config()};
+  pair.tools[1].X_DP = pack(Pose(Eigen::Translation3d(0, 0, 0.1) * unpack(config().X_DP)));
+  PalpationListener listener(config(), pair);
+  listener.begin(1);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(listener.add(at({0.01, 0, -0.004}, i * 1'000'000, 0.4, 0.1)), i % 10 == 0);
+    haptics::FlightRecord second =
+        at({0.03, 0, -0.002}, i * 1'000'000, 0.2, 0, PalpationListener::kMark);
+    second.tool = 1;
+    second.reading.p_DE[2] += 0.1;
+    EXPECT_EQ(listener.add(second), i % 10 == 0);
+  }
+  ASSERT_EQ(listener.samples().size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const assess::PalpationSample& sample = listener.samples()[i];
+    EXPECT_EQ(sample.tool, static_cast<int>(i % 2));
+    EXPECT_LT((sample.p_P - (i % 2 == 0 ? Vec3(0.01, 0, -0.004) : Vec3(0.03, 0, -0.002))).norm(),
+              1e-9);
+    EXPECT_NEAR(sample.f_n, i % 2 == 0 ? 0.5 : 0.2, 1e-9);
+  }
+  EXPECT_NEAR(listener.seconds(), 0.019, 1e-12) << "once, not twice";
+  EXPECT_TRUE(listener.marks().empty()) << "the second finger's button";
+  EXPECT_NEAR(pressing(listener.samples()), 0.5, 1e-9);
+}
+
 TEST(PalpationListener, KeepsOneSampleInTenMillisecondsAndNoPauses) {
   PalpationListener listener(config());
   listener.begin(1);

@@ -27,10 +27,12 @@ TEST(ShownForces, WhileSomethingIsSearchedWhatIsFeltIsOneArrow) {
 TEST(ShownForces, ApartTheyAreTheForcesOfTheRecord) {
   const Shown s;
   const std::vector<scene::ForceArrow> arrows = shownForces(s.tool, s.R_AD, s.X_AT, true);
-  ASSERT_EQ(arrows.size(), 2u);
+  ASSERT_EQ(arrows.size(), 3u);
   EXPECT_LT((arrows[0].f_A - Vec3(-0.2, 0.1, 0.9)).norm(), 1e-12);
   EXPECT_EQ(arrows[1].kind, scene::ForceKind::device);
   EXPECT_LT((arrows[1].f_A - Vec3(-0.3, 0, 0.1)).norm(), 1e-12);
+  EXPECT_EQ(arrows[2].kind, scene::ForceKind::felt);
+  EXPECT_LT((arrows[2].f_A - Vec3(-0.5, 0.1, 1.0)).norm(), 1e-12);
 }
 
 TEST(ShownForces, NothingThatNobodyFeels) {

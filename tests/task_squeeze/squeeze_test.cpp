@@ -138,6 +138,43 @@ TEST(SqueezeListener, OneFingerIsNoGripAndAPauseIsNoTime) {
   EXPECT_EQ(listener.seconds(), seconds);
 }
 
+/// 1 N of squeezing along x and 0.2 N of weight, shared; the devices add 0.3 N of each way.
+std::array<ShownTool, 2> squeezing() {
+  std::array<ShownTool, 2> tools;
+  tools[0].X_AT.translation() = Vec3(0.03, 0, 0);
+  tools[1].X_AT.translation() = Vec3(-0.03, 0, 0);
+  tools[0].tool.f_sensed_D = {1, 0, -0.1};
+  tools[1].tool.f_sensed_D = {-1, 0, -0.1};
+  tools[0].tool.f_command_D = {0.3, 0, -0.15};
+  tools[1].tool.f_command_D = {-0.3, 0, -0.15};
+  return tools;
+}
+
+std::map<scene::ForceKind, Vec3> firstOnes(const std::vector<scene::ForceArrow>& arrows) {
+  std::map<scene::ForceKind, Vec3> first;
+  for (const scene::ForceArrow& arrow : arrows) first.emplace(arrow.kind, arrow.f_A);
+  return first;
+}
+
+TEST(SqueezeForces, InASessionSqueezingAndWeightAreDrawnAsTheyAreFelt) {
+  const std::vector<scene::ForceArrow> arrows = squeezeForces(squeezing(), false);
+  ASSERT_EQ(arrows.size(), 4u) << "nothing that tells the devices' part";
+  const auto first = firstOnes(arrows);
+  EXPECT_LT((first.at(scene::ForceKind::reaction) - Vec3(1.3, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((first.at(scene::ForceKind::weight) - Vec3(0, 0, -0.25)).norm(), 1e-12);
+  EXPECT_LT((arrows[2].f_A - Vec3(-1.3, 0, 0)).norm(), 1e-12) << "the second tool's";
+}
+
+TEST(SqueezeForces, ApartTheyAreTheRealThingsTheDevicesAndTheirSum) {
+  const std::vector<scene::ForceArrow> arrows = squeezeForces(squeezing(), true);
+  ASSERT_EQ(arrows.size(), 8u);
+  const auto first = firstOnes(arrows);
+  EXPECT_LT((first.at(scene::ForceKind::reaction) - Vec3(1, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((first.at(scene::ForceKind::weight) - Vec3(0, 0, -0.1)).norm(), 1e-12);
+  EXPECT_LT((first.at(scene::ForceKind::device) - Vec3(0.3, 0, -0.15)).norm(), 1e-12);
+  EXPECT_LT((first.at(scene::ForceKind::felt) - Vec3(1.3, 0, -0.25)).norm(), 1e-12);
+}
+
 TEST(SqueezeScene, WhatIsHeldMovesWithTheFingers) {
   const Vec3 middle(0, 0.03, 0), first(0.025, 0.03, 0.02), second(-0.025, 0.03, 0.02);
   EXPECT_LT((heldPlace(first, second, middle, true).translation() - Vec3(0, 0, 0.02)).norm(),

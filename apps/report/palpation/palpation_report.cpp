@@ -191,6 +191,7 @@ svg .cross{fill:none;stroke:var(--ink);stroke-width:3;stroke-linecap:round}
 svg .cross.alarm{stroke:var(--bad-ink);stroke-linejoin:round}
 svg .bar-10mm{fill:none;stroke:var(--ink);stroke-width:3}
 svg .curve.pressing{stroke:var(--blue)}
+svg .curve.beside{stroke:var(--guide);stroke-dasharray:9 3 2 3}
 svg .area.pressing{fill:var(--blue)}
 svg .threshold{stroke:var(--ink);stroke-width:1.2;stroke-opacity:.75}
 svg .threshold.level-1{stroke-dasharray:1 4}

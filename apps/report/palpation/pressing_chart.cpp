@@ -13,13 +13,15 @@ constexpr double kMarksHeight = 20, kLineOfText = 13;  // px
 
 PlotPanel pressingPanel(const PalpationPage& page, bool wide) {
   PlotPanel panel{"Force", "N", {}, 1, 0, wide ? 190.0 : 170.0};
-  PlotCurve curve{"force", "pressing", {}, true};
+  PlotCurve first{"force", "pressing", {}, true}, second{"second finger", "beside", {}, false};
   double high = std::max(page.rules.too_hard, page.rules.levels.back());
   for (const assess::PalpationSample& sample : page.samples) {
-    curve.points.push_back({sample.t_s, sample.f_n});
+    (sample.tool == 0 ? first : second).points.push_back({sample.t_s, sample.f_n});
     if (std::isfinite(sample.f_n)) high = std::max(high, sample.f_n);
   }
-  panel.curves.push_back(curve);
+  if (!second.points.empty()) first.label = "first finger";
+  panel.curves.push_back(first);
+  if (!second.points.empty()) panel.curves.push_back(second);
   panel.y_top = niceCeiling(std::max(1.05 * high, 0.1));
   return panel;
 }

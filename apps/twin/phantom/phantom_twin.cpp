@@ -75,14 +75,14 @@ PhantomTouch PhantomFingersTwin::step(const Vec3& tip, double dt) {
 
 std::array<PhantomTouch, 2> PhantomFingersTwin::step(const std::array<Vec3, 2>& tips, double dt) {
   const Vec3 between(tips[0].x() - tips[1].x(), tips[0].y() - tips[1].y(), 0);
-  const double distance = std::max(between.norm(), both_.apart / 2);
+  const double distance = std::max(between.norm(), both_.apart / 2),
+               share = both_.apart * both_.apart / (distance * distance);
   const PairCell more = both_.more(0, {depthOf(tips[0]), depthOf(tips[1])});
   std::array<PhantomTouch, 2> touches;
   for (std::size_t t = 0; t < 2; ++t)
     touches[t] =
         stepAlone(one_, contacts_[t], tips[t], dt,
-                  both_.apart / distance *
-                      (more.f[t].x() * between / distance + more.f[t].y() * Vec3::UnitZ()));
+                  share * (more.f[t].x() * between / distance + more.f[t].y() * Vec3::UnitZ()));
   return touches;
 }
 

@@ -80,8 +80,9 @@ class PhantomPairTwin {
 
 /// A phantom without a lump under two tools anywhere on it, like fingers. What both do more than
 /// each alone is that of two side by side over the middle, along the line between them and less
-/// the farther they are apart: by apart/distance, as a half space sinks beside a load (Johnson,
-/// Contact Mechanics, 1985, 3.2); closer than half of `apart` as there.
+/// the farther they are apart: by (apart/distance)^2, as the elements have it from 16 to 26 mm in
+/// a block that is glued to a plate (a half space would sink by 1/distance beside a load); closer
+/// than half of `apart` as there.
 class PhantomFingersTwin {
  public:
   PhantomFingersTwin(PhantomTable one, PairTable both, const SiliconeLaw& law)
