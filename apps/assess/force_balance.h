@@ -21,9 +21,9 @@ struct ForceBalance {
 ///     | S (f_hand + f_device + f_sensed) - m (p(t + T) - 2 p(t) + p(t - T)) / T^2 |,   T = 20 ms
 /// with S the triangular mean of base 2 T, under which the second difference over T is exactly the
 /// mean acceleration; a balanced device needs no weight of its own, and the sensor's word is
-/// cleared of the tool's. The sensed reaction comes through a low-pass: it is taken as much later
-/// as its own position record p_DK lags behind the tool's. `mass`: the device's apparent one, kg;
-/// ticks of one session in order; a gap of time begins anew.
+/// cleared of the tool's. The sensed reaction may come through a low-pass: it is taken as much
+/// later as its own position record p_DK lags behind the tool's. `mass`: the device's apparent one,
+/// kg; ticks of one session in order; a gap of time begins anew.
 ForceBalance balanceOf(const std::vector<haptics::FlightRecord>& ticks, double mass);
 
 }  // namespace palpa::assess

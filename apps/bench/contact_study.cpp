@@ -53,6 +53,24 @@ Vec3 trueStep(const std::vector<PhantomTick>& ticks, std::size_t i) {
 
 }  // namespace
 
+double reactionDelay(const TouchRun& run) {
+  constexpr int kEarliest = -10, kLatest = 30;  // ticks
+  const auto off = [&run](int shift) {
+    double sum = 0;
+    for (int i = 1 - kEarliest; i + kLatest + 1 < static_cast<int>(run.ticks.size()); ++i)
+      sum += (run.ticks[static_cast<std::size_t>(i + shift)].f_r -
+              run.ticks[static_cast<std::size_t>(i)].truth.f)
+                 .squaredNorm();
+    return sum;
+  };
+  int best = 0;
+  for (int shift = kEarliest; shift <= kLatest; ++shift)
+    if (off(shift) < off(best)) best = shift;
+  const double before = off(best - 1), at = off(best), after = off(best + 1),
+               bend = before - 2 * at + after;
+  return kPhantomTick * (best + (bend > 0 ? 0.5 * (before - after) / bend : 0));
+}
+
 double RelativeRms::value() const { return of2_ > 0 ? std::sqrt(off2_ / of2_) : 0; }
 
 KnownPhantom identifyPhantom(const twin::PhantomTwin& phantom, Noise noise) {

@@ -33,6 +33,10 @@ struct TouchRun {
 };
 std::vector<TouchRun> freshTouches(const twin::PhantomTwin& phantom, Noise noise);
 
+/// How late the reaction is that a loop is given, s: the shift at which it is most like the true
+/// one (least squares; between ticks by a parabola).
+double reactionDelay(const TouchRun& run);
+
 /// Root mean square of a difference over that of what it is compared with.
 class RelativeRms {
  public:

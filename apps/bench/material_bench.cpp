@@ -23,6 +23,7 @@ void benchContact(const twin::Phantom& phantom, const KnownPhantom& known, Noise
   for (const TouchRun& run : runs) {
     nlohmann::json params = paramsOf(noise);
     params["motion"] = run.motion;
+    print("reaction_delay_ms", 1e3 * reactionDelay(run), "ms", params);
     const StiffnessFigures null = stiffnessFigures(known, run, 1);
     print("null_modulation_n", null.largest_N, "N", params);
     print("null_modulation_share", null.largest_share, "1", params);

@@ -214,7 +214,11 @@ void addExport(CLI::App& program) {
     const std::string laws = record::lawsJson(reader),
                       laws_file =
                           std::filesystem::path(*out).replace_extension("laws.json").string();
-    if (!laws.empty()) writeWhole(laws_file, laws + '\n');
+    std::error_code not_there;
+    if (laws.empty())
+      std::filesystem::remove(laws_file, not_there);  // of another session
+    else
+      writeWhole(laws_file, laws + '\n');
     written.keep();
     std::printf("Written: %s, %s%s\n", out->c_str(), dictionary.c_str(),
                 laws.empty() ? "" : (", " + laws_file).c_str());

@@ -27,8 +27,7 @@ double rounded(double value) { return std::isfinite(value) ? std::round(value * 
 json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& trial) {
   live::ForceCurve curve;
   reader.ticks([&](const haptics::FlightRecord& record) {
-    if (record.tool == 0 && record.t_ns >= trial.header.t_ns && !trial.isOver(record.t_ns))
-      curve.add(record);
+    if (record.t_ns >= trial.header.t_ns && !trial.isOver(record.t_ns)) curve.add(record);
   });
   const double began_s = static_cast<double>(trial.header.t_ns) * 1e-9;
   json t = json::array(), force = t, depth = t;

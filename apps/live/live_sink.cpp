@@ -94,9 +94,9 @@ void LiveSink::beginTrial(const runtime::TrialHeader& header) {
 
 void LiveSink::tick(const haptics::FlightRecord& record) {
   evidence_.tick(record);
-  if (record.tool != 0 || record.commands.trial == 0) return;
+  if (record.commands.trial == 0) return;
   curve_.add(record);
-  last_ = record;
+  if (record.tool == 0) last_ = record;
 }
 
 void LiveSink::event(const runtime::Event& event) {

@@ -38,8 +38,8 @@ class LiveLog {
 /// together; without a sensor the computed contact.
 double feltForce(const haptics::FlightRecord& record);
 
-/// Force and depth of a trial, thinned for a picture: of every 20 ms the tick with the greatest
-/// force.
+/// Force and depth of a trial, thinned for a picture: of every 20 ms the tick, of two tools either,
+/// with the greatest force.
 class ForceCurve {
  public:
   struct Point {

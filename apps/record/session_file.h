@@ -95,8 +95,8 @@ std::vector<TickColumn> tickColumns();
 void exportTicks(const SessionReader& reader, const std::filesystem::path& file);
 
 /// The laws by which a session added to a real thing, as JSON, with the lumps of its trials: with
-/// the ticks enough to compute every added force again; empty where nothing real was touched. SI
-/// units.
+/// the ticks what they added (`f_contact_D`) can be computed again, by the equations of
+/// haptics/modulation; cues are not among them. Empty where nothing real was touched. SI units.
 std::string lawsJson(const SessionReader& reader);
 
 /// What a walk calls, trial by trial in the order of their numbers. All three must be given.

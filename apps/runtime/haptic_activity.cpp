@@ -7,19 +7,24 @@ namespace palpa::runtime {
 
 ForceSensing::Touch ForceSensing::touched(const haptics::WrenchFilter& filter,
                                           const haptics::WrenchSample& sample, const Pose& X_WS,
-                                          std::int64_t t_ns) noexcept {
+                                          std::int64_t t_ns, std::int64_t) noexcept {
   const haptics::ContactWrench told = haptics::step(filter, low_passed_, sample, pack(X_WS), t_ns);
   return {X_WS.linear() * unpack(told.contact.f_S), told.p_WK, told.valid, low_passed_.held != 0};
 }
 
-/// A step is a reading's: the loop may ask more often than the device speaks.
+/// A step is a reading's: the loop may ask more often than the device speaks. What is silent for
+/// longer than a tick is no reading any more: the last word holds.
 ForceSensing::Touch ForceSensing::touched(const haptics::ReactionFilter& filter,
                                           const haptics::WrenchSample& sample, const Pose& X_WS,
-                                          std::int64_t t_ns) noexcept {
+                                          std::int64_t t_ns, std::int64_t now_ns) noexcept {
   const bool well = !(sample.flags & haptics::kUnusable) && haptics::finite(sample.f_S);
-  if (well && predicted_.seen > 0 && t_ns == predicted_.t_ns)
-    return {Vec3::Zero(), {}, false, true};
-  const haptics::Reaction told = haptics::step(filter, predicted_, sample, pack(X_WS), t_ns);
+  const bool again = well && predicted_.seen > 0 && t_ns == predicted_.t_ns;
+  const double since = 1e-9 * static_cast<double>(now_ns - stepped_ns_);
+  if (again && since * filter.settings().rate_Hz > 1) return {Vec3::Zero(), {}, false, true};
+  if (!again) stepped_ns_ = now_ns;
+  const haptics::Reaction told = again
+                                     ? haptics::ahead(filter, predicted_, since)
+                                     : haptics::step(filter, predicted_, sample, pack(X_WS), t_ns);
   return {unpack(told.f_W), told.p_WK, told.valid, well};
 }
 
@@ -38,7 +43,7 @@ haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading,
   const Pose X_DS = makePose(q_DE.toRotationMatrix(), unpack(reading.p_DE)) * setup_.X_ES;
   const Pose X_WS = setup_.X_WD * X_DS;
   const auto told_by = [&](const auto& filter) {
-    return touched(filter, sample, X_WS, reading.t_ns);
+    return touched(filter, sample, X_WS, reading.t_ns, now_ns);
   };
   const haptics::WrenchFilter* const low_pass = std::get_if<haptics::WrenchFilter>(&setup_.filter);
   const Touch touch = low_pass ? told_by(*low_pass)

@@ -38,9 +38,9 @@ struct ForceSensingSetup {
 /// A force sensor on the tool, read in the haptic thread: its newest sample, cleared of bias, tool
 /// and noise, as the force of a real object on the tool, in D. The tool's motion is that of the
 /// device's readings at their own times, however often the loop asks; unusable until the device is
-/// homed. Between readings, and after a gap in them until the motion is known again, the last force
-/// holds, but no longer than `kGoodFor_ns` and only while the sensor itself is well. Never
-/// allocates, never throws.
+/// homed. Between readings the Kalman filter looks ahead; after a gap in them until the motion is
+/// known again the last force holds, but no longer than `kGoodFor_ns` and only while the sensor
+/// itself is well. Never allocates, never throws.
 class ForceSensing {
  public:
   static constexpr std::int64_t kGoodFor_ns = 10'000'000;  ///< as old as a sample may be
@@ -58,16 +58,18 @@ class ForceSensing {
     bool valid = false;  ///< known at this very tick
     bool well = false;   ///< of the sensor
   };
+  /// Times: of the reading, and now.
   Touch touched(const haptics::WrenchFilter& filter, const haptics::WrenchSample& sample,
-                const Pose& X_WS, std::int64_t t_ns) noexcept;
+                const Pose& X_WS, std::int64_t t_ns, std::int64_t now_ns) noexcept;
   Touch touched(const haptics::ReactionFilter& filter, const haptics::WrenchSample& sample,
-                const Pose& X_WS, std::int64_t t_ns) noexcept;
+                const Pose& X_WS, std::int64_t t_ns, std::int64_t now_ns) noexcept;
 
   haptics::ForceSensor& sensor_;
   ForceSensingSetup setup_;
   haptics::WrenchFilterState low_passed_;
   haptics::ReactionState predicted_;
-  haptics::SensedForce last_;  // valid
+  std::int64_t stepped_ns_ = 0;  // when that last saw a new reading
+  haptics::SensedForce last_;    // valid
   std::int64_t last_ns_ = -kGoodFor_ns - 1;
 };
 

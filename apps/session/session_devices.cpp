@@ -18,7 +18,7 @@ using station::ForceSensorSetup;
 std::vector<haptics::RecordedReading> readingsOf(const std::filesystem::path& session) {
   std::vector<haptics::RecordedReading> readings;
   record::SessionReader(session).ticks([&](const haptics::FlightRecord& tick) {
-    readings.push_back({tick.t_ns, tick.reading});
+    if (tick.tool == 0) readings.push_back({tick.t_ns, tick.reading});
   });
   return readings;
 }

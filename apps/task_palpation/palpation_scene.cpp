@@ -100,8 +100,8 @@ scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::stri
     if (!status_.marks_P.empty())
       hud.marked = lineOf("%d", static_cast<int>(status_.marks_P.size()));
   }
-  const bool first = !setup_.X_AD2 || tool.safety != haptics::SafetyCause::none;
-  trial::noticeOf(status_, first ? tool.safety : second_.safety, "", trouble, &hud);
+  trial::noticeOf(status_, setup_.X_AD2 ? trial::worse(tool.safety, second_.safety) : tool.safety,
+                  "", trouble, &hud);
   hud.mark = mark();
   return hud;
 }

@@ -141,9 +141,9 @@ std::vector<assess::CaseLump> caseOf(const std::string& text) {
 
 PalpationTask::PalpationTask(const PalpationTaskSetup& setup, runtime::Bus& bus,
                              PalpationChannels& channels, runtime::Executive& executive)
-    : TrialTask(
-          {static_cast<int>(setup.plan.size()), setup.automatic, setup.not_scored, setup.places},
-          bus, channels, executive),
+    : TrialTask({static_cast<int>(setup.plan.size()), setup.automatic, setup.not_scored,
+                 setup.places, setup.pair ? 2 : 1},
+                bus, channels, executive),
       setup_(setup),
       channels_(channels),
       listener_(setup.tick, setup.pair),
@@ -253,7 +253,8 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   shown_.pressed_N = pressing(listener_.samples());
   shown_.level = levelOf(setup_.settings.scoring.rules.levels, shown_.pressed_N);
   status().elapsed_s = listener_.seconds();
-  if (status().elapsed_s >= setup_.settings.time_limit_s)
+  const bool whole = !setup_.pair || record.tool == 1;  // a tick is judged of both
+  if (whole && status().elapsed_s >= setup_.settings.time_limit_s)
     endTrial(Outcome::time, "The time limit was reached", now_ns);
 }
 

@@ -88,9 +88,7 @@ scene::Hud SqueezeScene::words(const runtime::ToolState& tool, const std::string
     std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
     hud.time = text;
   }
-  const haptics::SafetyCause safety =
-      second_.safety != haptics::SafetyCause::none ? second_.safety : tool.safety;
-  trial::noticeOf(status_, safety, "", trouble, &hud);
+  trial::noticeOf(status_, trial::worse(tool.safety, second_.safety), "", trouble, &hud);
   hud.mark = mark();
   return hud;
 }

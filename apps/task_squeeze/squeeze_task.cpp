@@ -88,7 +88,7 @@ std::string scoreJson(const assess::SqueezeTrial& trial) {
 SqueezeTask::SqueezeTask(const SqueezeTaskSetup& setup, runtime::Bus& bus,
                          SqueezeChannels& channels, runtime::Executive& executive)
     : TrialTask({static_cast<int>(setup.comparisons.size()), setup.automatic, setup.not_scored,
-                 setup.places},
+                 setup.places, 2},
                 bus, channels, executive),
       setup_(setup),
       channels_(channels),

@@ -63,6 +63,11 @@ std::string overlayText(const Mat3& covariance) {
   return text;
 }
 
+haptics::SafetyCause worse(haptics::SafetyCause first, haptics::SafetyCause second) {
+  if (forceText(first).empty() && !forceText(second).empty()) return second;
+  return first != haptics::SafetyCause::none ? first : second;
+}
+
 std::string forceText(haptics::SafetyCause cause) {
   using haptics::SafetyCause;
   switch (cause) {

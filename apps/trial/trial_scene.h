@@ -138,6 +138,8 @@ class TrialScene : public runtime::Activity {
 std::string overlayText(const Mat3& covariance);
 /// What a trip means for whoever holds the tool; empty: nothing to say.
 std::string forceText(haptics::SafetyCause cause);
+/// Of two tools' causes the one of which there is something to say; else the first that is one.
+haptics::SafetyCause worse(haptics::SafetyCause first, haptics::SafetyCause second);
 /// Why force was taken away, as part of a sentence: "the device was silent".
 std::string whyText(haptics::SafetyCause cause);
 /// The line of advice that every task has: its own, trouble with force, device, camera; in this

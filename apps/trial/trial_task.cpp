@@ -114,12 +114,21 @@ void TrialTask::hold(const std::string& trouble, std::int64_t now_ns) {
 
 void TrialTask::listen(std::int64_t now_ns) {
   haptics::FlightRecord record;
+  const auto hear = [&](const haptics::FlightRecord& heard) {
+    watchSafety(heard);
+    last_ = heard;
+    if (real_time_) load_.tick(heard);
+    watch(heard);
+    if (status_.active()) judge(heard, now_ns);
+  };
   while (bus_.haptic_to_task.pop(&record)) {
-    watchSafety(record);
-    last_ = record;
-    if (real_time_) load_.tick(record);
-    watch(record);
-    if (status_.active()) judge(record, now_ns);
+    if (lead_.tools == 2 &&
+        record.tool == 0) {  // with the second one's: a trial ends between ticks
+      first_ = record;
+      continue;
+    }
+    if (lead_.tools == 2) hear(first_);
+    hear(record);
   }
   if (real_time_)
     load_.look(LoadWatch::seenOn(bus_, channels_.frames.load(std::memory_order_relaxed)));

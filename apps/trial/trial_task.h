@@ -24,6 +24,7 @@ class TrialTask : public runtime::Activity {
     bool automatic = true;                    ///< starts trials by itself
     std::string calibration_problem;          ///< not empty: sessions are "not scored"
     std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
+    int tools = 1;                            ///< 2: a tick is two records
   };
   TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels, runtime::Executive& executive);
 
@@ -96,6 +97,7 @@ class TrialTask : public runtime::Activity {
   void publish(std::int64_t now_ns);
 
   Lead lead_;
+  haptics::FlightRecord first_;  // of two tools, until the second one's is there
   runtime::Bus& bus_;
   Channels& channels_;
   runtime::Executive& executive_;

@@ -30,8 +30,13 @@ LumpSearch::LumpSearch(const PalpatingSkill& skill, const VisiblePhantom& phanto
       phantom_(phantom),
       seed_(seed),
       fingers_(fingers),
+      strips_(std::max(1, static_cast<int>(std::ceil(2 * phantom.half_x / skill.strip - 1e-9)))),
       judgement_(seed, "palpating.judgement.0"),
-      memory_(skill.pressures.size()) {}
+      memory_(skill.pressures.size()) {
+  const double width = 2 * phantom_.half_x / strips_;
+  beside_ = std::max(1, static_cast<int>(std::lround(kFingersApart / width)));
+  if (fingers_ > 1) apart_ = Vec3(beside_ * width, 0, 0);
+}
 
 void LumpSearch::begin(int trial) {
   judgement_ = RandomStream(seed_, "palpating.judgement." + std::to_string(trial));
@@ -48,18 +53,13 @@ void LumpSearch::begin(int trial) {
 
 void LumpSearch::planStrips() {
   places_.clear();
-  const int strips =
-      std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_x / skill_.strip - 1e-9)));
   const int steps =
       std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_y / skill_.step - 1e-9)));
-  const double width = 2 * phantom_.half_x / strips;
-  const int beside = std::max(1, static_cast<int>(std::lround(kFingersApart / width)));
-  if (fingers_ > 1) apart_ = Vec3(beside * width, 0, 0);
-  for (int i = 0; i < skill_.area_share * strips; ++i) {
-    if (fingers_ > 1 && (i / beside) % 2 == 1) continue;  // the other finger's
+  for (int i = 0; i < skill_.area_share * strips_; ++i) {
+    if (fingers_ > 1 && (i / beside_) % 2 == 1) continue;  // the other finger's
     for (int k = 0; k < steps; ++k) {
       const int j = i % 2 == 0 ? k : steps - 1 - k;
-      const Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips - 1),
+      const Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips_ - 1),
                          phantom_.half_y * ((2 * j + 1.0) / steps - 1), 0);
       if (judgement_.uniform() < skill_.skip) continue;
       places_.push_back(planned +

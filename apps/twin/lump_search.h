@@ -74,7 +74,7 @@ class LumpSearch {
   PalpatingSkill skill_;
   VisiblePhantom phantom_;
   std::uint64_t seed_;
-  int fingers_;
+  int fingers_, strips_, beside_ = 1;  ///< of the area; of them, between two fingers
   Vec3 apart_ = Vec3::Zero();
   RandomStream judgement_;
   /// Still to be pressed, the next one last: in the search, in the closer look that is on

@@ -178,7 +178,7 @@ void PalpatingMind::press(double now_s) {
 
 void PalpatingMind::next(double now_s) {
   using Deed = LumpSearch::Deed;
-  const LumpSearch::Intent intent = search_.next();
+  const LumpSearch::Intent intent = to_mark_ ? *to_mark_ : search_.next();  // a pause came between
   if (intent.deed != Deed::press) word_ = intent.word;
   both_ = intent.both;
   done_ = intent.deed == Deed::end;
@@ -204,8 +204,8 @@ void PalpatingMind::travel(double now_s) {
 void PalpatingMind::lift(double now_s) {
   for (std::size_t i = 0; i < fingers_.size(); ++i)
     if (presses(i) && fingers_[i].wanted_z < kOverTop) fingers_[i].wanted_z += kLift * kThink_s;
-  for (const Finger& f : fingers_)
-    if (f.wanted_z < kOverTop) return;
+  for (std::size_t i = 0; i < fingers_.size(); ++i)
+    if (presses(i) && fingers_[i].wanted_z < kOverTop) return;
   search_.felt(fingers_[0].tip_P, fingers_[0].depths);
   if (both_) search_.felt(fingers_[1].tip_P, fingers_[1].depths);
   next(now_s);
@@ -273,7 +273,7 @@ void PalpatingMind::look(std::size_t number, const Hand::Senses& senses, double 
                   skill_.look_sd, f.speed, f.noise);
   if (!first) return;
   const Vec3 tip_P = X_AP_.inverse() * f.bearings.X_AT().translation();
-  f.wanted_z = tip_P.z();
+  f.wanted_z = number == 0 ? tip_P.z() : fingers_[0].wanted_z;
   if (number == 0) at_P_ = tip_P;
 }
 
@@ -283,8 +283,7 @@ void PalpatingMind::feel(Finger& f, const Hand::Senses& senses) {
   f.felt_N += kSharp * (-(X_PD.linear() * senses.f_fingers_D).z() - f.felt_N);
 }
 
-/// The first finger's time is when all are felt and thought about, the second one's as of a tick
-/// before.
+/// It is thought when the first finger has felt; what the second felt is then of a thought before.
 Hand::Action PalpatingMind::act(std::size_t number, const Hand::Senses& senses, double dt) {
   Finger& f = fingers_[number];
   look(number, senses, dt);

@@ -268,4 +268,17 @@ Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSa
   return now;
 }
 
+Reaction ahead(const ReactionFilter& filter, const ReactionState& state, double dt) noexcept {
+  ReactionState then = state;
+  const ReactionStep tick{filter, filter.settings(), then};
+  const double on = std::clamp(dt, 0.0, tick.dt);
+  Reaction now;
+  now.valid = state.seen == kSettling;
+  now.p_WK = pack(Vec3(tick.k.row(0) + on * tick.k.row(1)));
+  if (now.valid)
+    now.f_W =
+        pack(Vec3(tick.x.row(4).transpose() + on * (tick.predictedChange() + Vec3(tick.x.row(5)))));
+  return now;
+}
+
 }  // namespace palpa::haptics

@@ -101,4 +101,7 @@ struct Reaction {
 Reaction step(const ReactionFilter& filter, ReactionState& state, const WrenchSample& sample,
               const PackedPose& X_WS, std::int64_t t_ns) noexcept;
 
+/// Between two ticks: what is predicted `dt` seconds after the last one, at most one tick ahead.
+Reaction ahead(const ReactionFilter& filter, const ReactionState& state, double dt) noexcept;
+
 }  // namespace palpa::haptics

@@ -84,7 +84,7 @@ Rgb arrowColour(ForceKind kind, ForceColours colours) {
     case ForceKind::weight:
       return safe ? Rgb{0.337, 0.706, 0.914} : Rgb{0.50, 0.50, 0.50};  // sky blue
     case ForceKind::felt:
-      return {0.02, 0.02, 0.02};
+      return {1, 1, 1};
     case ForceKind::device:
       break;
   }
@@ -92,7 +92,7 @@ Rgb arrowColour(ForceKind kind, ForceColours colours) {
 }
 
 Rgb arrowOutline(ForceKind kind) {
-  if (kind == ForceKind::device) return {0.08, 0.08, 0.08};
+  if (kind == ForceKind::device || kind == ForceKind::felt) return {0.08, 0.08, 0.08};
   return {0.97, 0.97, 0.97};
 }
 

@@ -124,8 +124,8 @@ class FeltLump {
       for (std::size_t t = 0; t < 2; ++t) sum += f[t] = push(fingers[t], middles[t], d, t, &l[t]);
       for (int i = 0; i < 3; ++i) {
         const double side = d[i] < 0 ? -1 : 1;
-        sum[i] += side * G_[static_cast<std::size_t>(i)].force(side * d[i],
-                                                               side * (d[i] - d_[i]) / dt_);
+        sum[i] +=
+            side * G_[static_cast<std::size_t>(i)].force(side * d[i], side * (d[i] - d_[i]) / dt_);
       }
       return sum;
     };
@@ -175,8 +175,8 @@ class Columns {
     std::getline(in_, line_);
     const std::vector<std::string> header = cellsOf(line_);
     for (const std::string& name : names)
-      at_.push_back(static_cast<std::size_t>(std::find(header.begin(), header.end(), name) -
-                                             header.begin()));
+      at_.push_back(
+          static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin()));
     values.resize(names.size());
   }
   std::vector<double> values;
@@ -243,7 +243,7 @@ class FeltAgain {
 
 /// What the session of two fingers added against that, tick by tick.
 struct Agreement {
-  int ticks = 0, both = 0;               // both: with a lump felt by both fingers
+  int ticks = 0, both = 0;  // both: with a lump felt by both fingers
   double worst_N = 0, worst_depth = 0, most_N = 0;
 };
 
@@ -277,9 +277,9 @@ Agreement agreement(const std::filesystem::path& csv, const json& laws) {
 
 TEST(TwoFingers, SearchRollAndFeelWhatSeparateCodeComputes) {
   const Folder here;
-  const Outcome session = palpa(
-      quickly({"palpation", "--tools", "2", "--operator", "expert", "--seed", "2402", "--out", "A"}),
-      here.path());
+  const Outcome session = palpa(quickly({"palpation", "--tools", "2", "--operator", "expert",
+                                         "--seed", "2402", "--out", "A"}),
+                                here.path());
   ASSERT_EQ(session.exit_code, 0) << session.err;
   EXPECT_TRUE(says(session.out, "Found both lumps")) << session.out;
   const Outcome replay = palpa({"replay", "A/session.palpa"}, here.path());

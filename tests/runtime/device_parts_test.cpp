@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/runtime/clock.h"
@@ -97,6 +98,37 @@ TEST_P(ForceSensingBy, IsTheTouchAloneInTheDevicesFrame) {
   }
   ASSERT_EQ(sensed.state, haptics::SensorState::valid);
   EXPECT_LT((unpack(sensed.f_D) - touch_D).norm(), 1e-9);
+}
+
+/// A loop of 4 kHz over a device of 1 kHz: who sets force against depth and takes differences from
+/// tick to tick must see no stairs.
+TEST_P(ForceSensingBy, APlaceThatMovesEvenlyIsToldEvenlyHoweverOftenItIsAsked) {
+  constexpr double kSpeed = 0.02;  // m/s
+  ChannelSensor sensor({}, TimeMode::virtual_time);
+  ForceSensing sensing(sensor, sensingWith(GetParam()));
+  haptics::DeviceReading reading;
+  reading.homed = 1;
+  double before = 0, least = 1, most = -1;
+  for (std::int64_t quarter = 0; quarter < 800; ++quarter) {
+    const std::int64_t now = quarter * kMillisecond / 4;
+    if (quarter % 4 == 0) {
+      reading.t_ns = now;
+      reading.p_DE[2] = kSpeed * 1e-9 * static_cast<double>(now);
+      haptics::WrenchSample sample;
+      sample.t_ns = now;
+      sample.sequence = static_cast<std::uint64_t>(quarter + 1);
+      sensor.publish(sample, now);
+    }
+    const haptics::SensedForce sensed = sensing.sense(reading, now);
+    const double step = sensed.p_DK[2] - before;
+    before = sensed.p_DK[2];
+    if (quarter < 400) continue;
+    least = std::min(least, step);
+    most = std::max(most, step);
+  }
+  const double even = kSpeed * 0.25e-3;
+  EXPECT_GT(least, 0.2 * even);
+  EXPECT_LT(most, 2.2 * even) << "a stair would be four times as high";
 }
 
 /// Ticks of a millisecond: what the sensor measures, the force told, whether the device spoke.
