@@ -23,9 +23,10 @@ class PalpatingFingers : public testing::Test {
       seen.X_AT = tips_[0];
       seen.second_X_AT = tips_[1];
       for (std::size_t f = 0; f < 2; ++f) {
-        const Pose before = tips_[f];
-        tips_[f] = fingers_[f]->act({now_ns_, tips_[f], Vec3::Zero(), &seen, Vec3::Zero()}, 1e-3).X_DH;
-        fastest_ = std::max(fastest_, (tips_[f].translation() - before.translation()).norm() / 1e-3);
+        const Vec3 before = tips_[f].translation();
+        const Hand::Senses senses{now_ns_, tips_[f], Vec3::Zero(), &seen, Vec3::Zero()};
+        tips_[f] = fingers_[f]->act(senses, 1e-3).X_DH;
+        fastest_ = std::max(fastest_, (tips_[f].translation() - before).norm() / 1e-3);
       }
       if (first().z() < -0.004 && !deep_) ++presses_;
       deep_ = first().z() < -0.004;
