@@ -34,8 +34,7 @@ class PalpatingFingers : public testing::Test {
   }
   Vec3 first() const { return tips_[0].translation(); }
 
-  PalpatingSkill skill_ =
-      readPalpatingSkill(station::assetFile("operators/palpation_expert.json"));
+  PalpatingSkill skill_ = readPalpatingSkill(station::assetFile("operators/palpation_expert.json"));
   std::vector<std::unique_ptr<Hand>> fingers_ =
       palpatingFingers(skill_, {Pose::Identity(), 0.03, 0.03, {}}, Pose::Identity(), 2, 7);
   std::array<Pose, 2> tips_{pickedUp(0), pickedUp(0.02)};
