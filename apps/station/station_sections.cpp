@@ -99,6 +99,8 @@ std::optional<ForceSensorSetup> readForceSensor(const JsonFile& file) {
                   "is of a low-pass, but noise_N asks for a Kalman filter: state one of the two");
     sensor.noise_N = file.number("force_sensor/noise_N", 1e-4, 1);
   } else {
+    if (!file.has("force_sensor/cutoff_Hz"))
+      file.refuse("force_sensor/noise_N", "is missing, and so is cutoff_Hz: state one of the two");
     sensor.cutoff_Hz = file.number("force_sensor/cutoff_Hz", 1, 400);
   }
   sensor.tool.mass = 1e-3 * file.number("force_sensor/tool/mass_g", 0, 5000);

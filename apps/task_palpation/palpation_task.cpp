@@ -237,7 +237,8 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
     SensorCheck& sensor = sensors_[record.tool & 1];
     if (const std::string trouble = sensor.add(record); !trouble.empty()) {
       sensor.reset();
-      return hold(trouble, now_ns);
+      const char* const which = record.tool == 0 ? "of the first tool, " : "of the second tool, ";
+      return hold((setup_.pair ? which : "") + trouble, now_ns);
     }
   }
   const std::size_t marks = listener_.marks().size();

@@ -145,18 +145,28 @@ TEST(LiveSink, EvidenceGetsEverythingAndTheLogWhatCanBeTold) {
   EXPECT_EQ(told[4]["kind"], "trial_end");
 }
 
-TEST(LiveSink, TicksOutsideTrialsAndOfTheSecondToolAreNotTold) {
+TEST(LiveSink, TicksOutsideTrialsAreNotTold) {
   Session s;
-  haptics::FlightRecord other = tickAt(0, 5);
-  other.tool = 1;
-  for (int ms = 0; ms < 100; ++ms) {
-    other.t_ns = ms * 1'000'000ll;
-    s.sink.tick(other);
-    s.sink.tick(tickAt(ms * 1'000'000ll, 5, 0));
-  }
+  for (int ms = 0; ms < 100; ++ms) s.sink.tick(tickAt(ms * 1'000'000ll, 5, 0));
   s.sink.commit();
   EXPECT_EQ(s.log.size(), 0u);
-  EXPECT_EQ(s.evidence.got.size(), 201u);
+  EXPECT_EQ(s.evidence.got.size(), 101u);
+}
+
+/// Both are judged, so whoever looks on sees both.
+TEST(LiveSink, OfTwoToolsTheCurveIsOfTheOneThatIsPressedHarder) {
+  Session s;
+  for (int ms = 0; ms < 100; ++ms) {
+    haptics::FlightRecord second = tickAt(ms * 1'000'000ll, 5);
+    second.tool = 1;
+    s.sink.tick(tickAt(ms * 1'000'000ll, 2));
+    s.sink.tick(second);
+  }
+  s.sink.commit();
+  const std::vector<json> told = s.told();
+  ASSERT_EQ(told.size(), 1u);
+  ASSERT_GE(told[0]["force_N"].size(), 4u) << "20 ms each";
+  for (const json& force : told[0]["force_N"]) EXPECT_EQ(force, 5);
 }
 
 TEST(LiveSink, ANearMissIsToldWhenItsWordsChange) {
