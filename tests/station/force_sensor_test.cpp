@@ -32,7 +32,8 @@ std::string whySensorRefused(const json& more) {
 }
 
 TEST(ForceSensorSection, HasALowPassOrIfItsNoiseIsKnownAKalmanFilter) {
-  const ForceSensorSetup low_passed = sensorWith({{"cutoff_Hz", 60}}), kalman = sensorWith({{"noise_N", 0.005}});
+  const ForceSensorSetup low_passed = sensorWith({{"cutoff_Hz", 60}}),
+                         kalman = sensorWith({{"noise_N", 0.005}});
   EXPECT_FALSE(low_passed.noise_N);
   EXPECT_EQ(low_passed.cutoff_Hz, 60);
   EXPECT_EQ(kalman.noise_N, 0.005);
