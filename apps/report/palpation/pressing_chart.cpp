@@ -13,13 +13,13 @@ constexpr double kMarksHeight = 20, kLineOfText = 13;  // px
 
 PlotPanel pressingPanel(const PalpationPage& page, bool wide) {
   PlotPanel panel{"Force", "N", {}, 1, 0, wide ? 190.0 : 170.0};
-  PlotCurve first{"force", "pressing", {}, true}, second{"second finger", "beside", {}, false};
+  PlotCurve first{"force", "pressing", {}, true}, second{"second", "beside", {}, false};
   double high = std::max(page.rules.too_hard, page.rules.levels.back());
   for (const assess::PalpationSample& sample : page.samples) {
     (sample.tool == 0 ? first : second).points.push_back({sample.t_s, sample.f_n});
     if (std::isfinite(sample.f_n)) high = std::max(high, sample.f_n);
   }
-  if (!second.points.empty()) first.label = "first finger";
+  if (!second.points.empty()) first.label = "first";
   panel.curves.push_back(first);
   if (!second.points.empty()) panel.curves.push_back(second);
   panel.y_top = niceCeiling(std::max(1.05 * high, 0.1));
