@@ -13,9 +13,10 @@ namespace {
 
 using Lines = std::vector<nlohmann::json>;
 
-/// Those without noise, and what hands do, which is with noise always.
+/// Those without noise, and what hands do, which is with noise always: here behind the low-pass.
 bool isJudged(const nlohmann::json& line) {
-  return line["params"]["noise"] == "none" || line["params"].contains("hands");
+  return line["params"]["noise"] == "none" ||
+         (line["params"].contains("hands") && line["params"]["cleared"] != "kalman");
 }
 bool isCleared(const nlohmann::json& line) { return line["params"]["cleared"] == "kalman"; }
 
