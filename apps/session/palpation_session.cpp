@@ -48,23 +48,6 @@ station::Station palpationStation(const SessionOptions& options) {
   return station;
 }
 
-}  // namespace
-
-void PalpationWorld::checkFingers(const SessionOptions& options) const {
-  if (options.tools < 2) return;
-  if (!station.second_X_WD)
-    throw UsageError("has no \"second_device\"", station.file.name(),
-                     "--tools 2 needs a device for each finger: describe the second one");
-  if (station.device.driver != station::DeviceDriver::bench || options.who == OperatorKind::person)
-    throw UsageError("can only be simulated so far", "--tools 2",
-                     "Leave out --station, take --operator expert or novice");
-  if (options.augment)
-    throw UsageError("adds to what one tool feels", "--augment on with --tools 2",
-                     "Leave one of them out");
-}
-
-namespace {
-
 /// What anybody sees or has learnt of the phantom.
 twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
   const auto from_normal = [normal = task.scoring.rules.normal](const Vec3& p_P) {
@@ -94,6 +77,19 @@ PalpationWorld::PalpationWorld(const SessionOptions& options)
     station.file.refuse("safety/deadman_button", "is the button that marks a lump; give another");
 }
 
+void PalpationWorld::checkFingers(const SessionOptions& options) const {
+  if (options.tools < 2) return;
+  if (!station.second_X_WD)
+    throw UsageError("has no \"second_device\"", station.file.name(),
+                     "--tools 2 needs a device for each finger: describe the second one");
+  if (station.device.driver != station::DeviceDriver::bench || options.who == OperatorKind::person)
+    throw UsageError("can only be simulated so far", "--tools 2",
+                     "Leave out --station, take --operator expert or novice");
+  if (options.augment)
+    throw UsageError("adds to what one tool feels", "--augment on with --tools 2",
+                     "Leave one of them out");
+}
+
 haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) const {
   haptics::TickConfig config;
   config.contact_mode = haptics::ContactMode::sensed_object;
@@ -116,7 +112,7 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
 std::optional<haptics::PairConfig> PalpationWorld::pairConfig(const SessionOptions& options) const {
   if (options.tools < 2) return std::nullopt;
   haptics::PairConfig pair;
-  pair.tools = {tickConfig(options), tickConfig(options)};
+  pair.tools.fill(tickConfig(options));
   pair.tools[1].X_DP = pack(Pose(station.second_X_WD->inverse() * station.sample->X_WP));
   return pair;
 }
@@ -275,17 +271,6 @@ report::Courses<assess::PalpationSample> touchesIn(const std::filesystem::path& 
           draw(trial.header.trial, felt.samples());
         });
   };
-}
-
-std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
-  std::vector<report::Fact> facts;
-  for (const station::LumpKind& kind : library.kinds)
-    facts.push_back({"Lump \"" + kind.name + "\"",
-                     format("%.0f mm across, %.0f mm deep, %s", 1e3 * kind.diameter,
-                            1e3 * kind.depth, kind.hardness == 1 ? "soft" : "hard"),
-                     format("changes the force by %.0f %% where it is felt%s", 100 * kind.contrast,
-                            library.simulated ? "; identified in simulated silicone" : "")});
-  return facts;
 }
 
 }  // namespace

@@ -79,6 +79,17 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
   return facts;
 }
 
+std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
+  std::vector<report::Fact> facts;
+  for (const station::LumpKind& kind : library.kinds)
+    facts.push_back({"Lump \"" + kind.name + "\"",
+                     format("%.0f mm across, %.0f mm deep, %s", 1e3 * kind.diameter,
+                            1e3 * kind.depth, kind.hardness == 1 ? "soft" : "hard"),
+                     format("changes the force by %.0f %% where it is felt%s", 100 * kind.contrast,
+                            library.simulated ? "; identified in simulated silicone" : "")});
+  return facts;
+}
+
 report::Fact surfaceFact(const station::LumpLibrary& library) {
   return {"Softness and friction of the sample", library.of_surface, ""};
 }

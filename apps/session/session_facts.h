@@ -26,6 +26,8 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
 std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy);
 /// By what the surface that is touched is known.
 report::Fact surfaceFact(const station::LumpLibrary& library);
+/// Each of its lumps: size, depth, hardness, how much it changes the force.
+std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library);
 /// Lateness, trips with their causes, what drivers and camera had to say, records lost.
 std::vector<report::Fact> runNotes(const SessionRun& run);
 

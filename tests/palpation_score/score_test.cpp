@@ -38,7 +38,7 @@ TEST(PalpationScore, TwoFingersFeelTwiceTheAreaInTheSameTime) {
                        two = scorePalpation(rules, {}, both, {});
   EXPECT_EQ(two.seconds, one.seconds);
   EXPECT_EQ(two.presses, 2 * one.presses);
-  EXPECT_GT(two.coverage[0], 1.4 * one.coverage[0]);
+  EXPECT_GT(two.coverage[0], 1.4 * one.coverage[0]) << "what both feel lies over each other";
   EXPECT_NEAR(two.peak, 2 * one.peak, 1e-12);
   EXPECT_NEAR(two.mean, 1.5 * one.mean, 0.05 * one.mean) << "over both fingers' time";
   EXPECT_EQ(two.pattern.pattern, one.pattern.pattern) << "a finger beside the first is no pattern";

@@ -126,6 +126,8 @@ TEST_P(ForceSensingBy, APlaceThatMovesEvenlyIsToldEvenlyHoweverOftenItIsAsked) {
     least = std::min(least, step);
     most = std::max(most, step);
   }
+  // Where a reading comes, what was predicted is put right, by a part of a step; without looking
+  // ahead three steps of four would be nothing.
   const double even = kSpeed * 0.25e-3;
   EXPECT_GT(least, 0.2 * even);
   EXPECT_LT(most, 2.2 * even) << "a stair would be four times as high";
