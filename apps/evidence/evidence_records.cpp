@@ -15,7 +15,7 @@
 #include "apps/assess/needle/needle_metrics.h"
 #include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/assess/search/search_trial.h"
-#include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/assess/comparison/comparison_trial.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/record/store/delivery.h"
@@ -61,8 +61,8 @@ Figures figuresIn(const record::SessionReader& reader, const std::filesystem::pa
       return figuresOf(recordedSearches(reader),
                        [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
     case Engine::squeeze:
-      return figuresOf(recordedSqueezes(reader),
-                       [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
+      return figuresOf(recordedComparisons(reader),
+                       [](const RecordedComparison& t) { return assess::comparisonMetrics(t.again); });
     case Engine::needle:
       break;
   }

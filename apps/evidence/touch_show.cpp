@@ -170,9 +170,9 @@ class SearchShow final : public TouchShow<replay::ShownSearch> {
   }
 };
 
-class SqueezeShow final : public TouchShow<replay::ShownSqueeze> {
+class ComparisonShow final : public TouchShow<replay::ShownComparison> {
  public:
-  SqueezeShow(const std::filesystem::path& file, int number) : TouchShow(file, number) {
+  ComparisonShow(const std::filesystem::path& file, int number) : TouchShow(file, number) {
     if (!reader_.info().pair_config)
       throw Error("describes one device where two are needed", file_,
                   "Restore the file from a backup");
@@ -182,9 +182,9 @@ class SqueezeShow final : public TouchShow<replay::ShownSqueeze> {
     trial_.X_AD = anatomy::X_AP() * unpack(tools[0].X_DP).inverse();
     trial_.X_AD2 = anatomy::X_AP() * unpack(tools[1].X_DP).inverse();
     trial_.middle_A = anatomy::X_AP() * Vec3(0, 0, -half);
-    trial_.comparison = task_squeeze::comparisonIn(eventText(EventKind::trial_case));
+    trial_.comparison = task_comparison::comparisonIn(eventText(EventKind::trial_case));
     shown_ = anatomy::phantomBlock(Vec3::Constant(2 * half), "object");
-    replay::SqueezeReader reader(json.number("force/touch_N", 0.02, 5),
+    replay::ComparisonReader reader(json.number("force/touch_N", 0.02, 5),
                                  {unpack(tools[0].X_ET), unpack(tools[1].X_ET)}, trial_.comparison,
                                  trial_.number);
     receive(reader, [&] { return lastOf(reader.moments()); });
@@ -192,7 +192,7 @@ class SqueezeShow final : public TouchShow<replay::ShownSqueeze> {
     need(!trial_.moments.empty());
   }
   std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) override {
-    return replay::squeezeReplay(trial_, view);
+    return replay::comparisonReplay(trial_, view);
   }
 };
 
@@ -202,7 +202,7 @@ std::unique_ptr<RecordedShow> recordedTouch(const std::filesystem::path& file, E
                                             int number) {
   if (engine == Engine::palpation) return std::make_unique<PalpationShow>(file, number);
   if (engine == Engine::search) return std::make_unique<SearchShow>(file, number);
-  return std::make_unique<SqueezeShow>(file, number);
+  return std::make_unique<ComparisonShow>(file, number);
 }
 
 }  // namespace palpa::evidence

@@ -3,7 +3,7 @@
 #include "anatomy/parametric/phantoms.h"
 #include "apps/task_palpation/palpation_scene.h"
 #include "apps/task_search/search_scene.h"
-#include "apps/task_squeeze/squeeze_scene.h"
+#include "apps/task_comparison/comparison_scene.h"
 
 namespace palpa::replay {
 namespace {
@@ -144,17 +144,17 @@ std::unique_ptr<TrialReplay> searchReplay(const ShownSearch& trial, scene::Scene
 
 namespace {
 
-class SqueezeReplay final : public TrialReplay {
+class ComparisonReplay final : public TrialReplay {
  public:
-  SqueezeReplay(const ShownSqueeze& trial, scene::SceneView& view)
+  ComparisonReplay(const ShownComparison& trial, scene::SceneView& view)
       : TrialReplay(trial, trial.length_s()),
         recorded_(trial),
         scene_({stage(view), trial.X_AD2, trial.middle_A, true}, bus_, channels_) {}
 
  private:
   void showAt(double t_s, std::int64_t now_ns) override {
-    const SqueezeMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
-    task_squeeze::SqueezeStatus status;
+    const ComparisonMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
+    task_comparison::ComparisonStatus status;
     fill(status, t_s);
     status.property = recorded_.comparison.property;
     status.thing = moment.thing;
@@ -167,20 +167,20 @@ class SqueezeReplay final : public TrialReplay {
 
   trial::TrialScene& scene() override { return scene_; }
 
-  const ShownSqueeze& recorded_;
-  task_squeeze::SqueezeChannels channels_{runtime::TimeMode::virtual_time};
-  task_squeeze::SqueezeScene scene_;
+  const ShownComparison& recorded_;
+  task_comparison::ComparisonChannels channels_{runtime::TimeMode::virtual_time};
+  task_comparison::ComparisonScene scene_;
 };
 
 }  // namespace
 
-SqueezeReader::SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET,
-                             const task_squeeze::SqueezeComparison& comparison, int trial)
+ComparisonReader::ComparisonReader(double touch_N, const std::array<Pose, 2>& X_ET,
+                             const task_comparison::Comparison& comparison, int trial)
     : X_ET_(X_ET), listener_(touch_N), trial_(static_cast<std::uint32_t>(trial)) {
   listener_.begin(trial_, comparison);
 }
 
-void SqueezeReader::add(const haptics::FlightRecord& record) {
+void ComparisonReader::add(const haptics::FlightRecord& record) {
   if (record.commands.trial != trial_ || !record.commands.armed) return;
   listener_.add(record);
   if (record.tool == 0) {
@@ -196,8 +196,8 @@ void SqueezeReader::add(const haptics::FlightRecord& record) {
                       listener_.held()});
 }
 
-std::unique_ptr<TrialReplay> squeezeReplay(const ShownSqueeze& trial, scene::SceneView& view) {
-  return std::make_unique<SqueezeReplay>(trial, view);
+std::unique_ptr<TrialReplay> comparisonReplay(const ShownComparison& trial, scene::SceneView& view) {
+  return std::make_unique<ComparisonReplay>(trial, view);
 }
 
 }  // namespace palpa::replay

@@ -1,4 +1,4 @@
-#include "apps/session/squeeze_session.h"
+#include "apps/session/comparison_session.h"
 #include "apps/runtime/clock.h"
 #include "apps/training/trial_words.h"
 
@@ -9,11 +9,11 @@
 
 #include "anatomy/base/counted.h"
 #include "anatomy/parametric/phantoms.h"
-#include "apps/report/squeeze/squeeze_report.h"
+#include "apps/report/comparison/comparison_report.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
-#include "apps/task_squeeze/squeeze_scene.h"
+#include "apps/task_comparison/comparison_scene.h"
 #include "apps/twin/feeling_hands.h"
 #include "apps/twin/soft_samples.h"
 
@@ -41,13 +41,13 @@ station::Station squeezeStation(const SessionOptions& options) {
   return station;
 }
 
-Vec3 sizeOf(const task_squeeze::SqueezeSettings& task) { return Vec3::Constant(2 * task.half); }
+Vec3 sizeOf(const task_comparison::ComparisonSettings& task) { return Vec3::Constant(2 * task.half); }
 
 }  // namespace
 
 SqueezeWorld::SqueezeWorld(const SessionOptions& options)
     : station(squeezeStation(options)),
-      task(task_squeeze::readSqueeze(options.task.empty() ? station::assetFile("tasks/squeeze.json")
+      task(task_comparison::readSqueeze(options.task.empty() ? station::assetFile("tasks/squeeze.json")
                                                           : std::filesystem::path(options.task))),
       object(anatomy::phantomBlock(sizeOf(task), task.title)),
       X_WO(station.sample->X_WP * makePose(Mat3::Identity(), Vec3(0, 0, -task.half))),
@@ -120,30 +120,30 @@ record::SessionInfo SqueezeWorld::info(const SessionOptions& options) const {
   return info;
 }
 
-SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
+ComparisonRun runComparison(const SessionOptions& options, const SqueezeWorld& world,
                       const std::filesystem::path& folder) {
-  task_squeeze::SqueezeChannels channels(options.fast ? runtime::TimeMode::virtual_time
+  task_comparison::ComparisonChannels channels(options.fast ? runtime::TimeMode::virtual_time
                                                       : runtime::TimeMode::real);
   const haptics::PairConfig pair = world.pairConfig(options);
   SessionFrame frame(options, {world.station, world.object, world.X_WA, pair.tools[0], pair, false},
                      world.hands(options), channels, folder);
   const std::string not_scored = world.station.calibrationProblem();
-  task_squeeze::SqueezeTask task(
+  task_comparison::ComparisonTask task(
       {.settings = world.task,
        .simulated = true,
        .automatic = true,
        .force_feedback = options.force_feedback,
        .not_scored = not_scored,
        .seed = options.seed,
-       .comparisons = task_squeeze::comparisonsOf(world.task, options.seed, options.trials),
+       .comparisons = task_comparison::comparisonsOf(world.task, options.seed, options.trials),
        .places = frame.places(),
        .role = options.role},
       frame.bus(), channels, frame.executive());
-  task_squeeze::SqueezeScene scene({.stage = frame.stage(),
+  task_comparison::ComparisonScene scene({.stage = frame.stage(),
                                     .X_WD2 = *world.station.second_X_WD,
                                     .middle_A = (world.X_WA.inverse() * world.X_WO).translation()},
                                    frame.bus(), channels);
-  SqueezeRun run;
+  ComparisonRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();
   return run;
@@ -157,19 +157,19 @@ ReportHead SqueezeWorld::head(const SessionOptions& options) const {
   return head;
 }
 
-void writeSqueezeResults(const ReportHead& head,
-                         const std::vector<task_squeeze::CompletedSqueeze>& trials,
+void writeComparisonResults(const ReportHead& head,
+                         const std::vector<task_comparison::CompletedComparison>& trials,
                          const ReportTail& tail, const std::filesystem::path& evidence) {
-  report::SqueezeReport page;
-  std::vector<assess::SqueezeTrial> scored;
-  for (const task_squeeze::CompletedSqueeze& trial : trials) {
+  report::ComparisonReport page;
+  std::vector<assess::ComparisonTrial> scored;
+  for (const task_comparison::CompletedComparison& trial : trials) {
     page.trials.push_back(trial.trial);
     if (training::countsAsScored(trial.trial.role) &&
         trial.trial.outcome != training::Outcome::voided)
       scored.push_back(trial.trial);
   }
   const std::filesystem::path folder = evidence.parent_path();
-  report::writeSqueezeCsv(head.user_id, scored, folder / "trials.csv");
+  report::writeComparisonCsv(head.user_id, scored, folder / "trials.csv");
   if (!head.page) return;
   page.title = head.title;
   page.trainee = head.trainee;
@@ -180,15 +180,15 @@ void writeSqueezeResults(const ReportHead& head,
   page.taxonomy = head.taxonomy;
   page.station = head.station;
   page.notes = tail.notes;
-  report::writeSqueezeReport(page, folder / "report.html");
+  report::writeComparisonReport(page, folder / "report.html");
 }
 
-void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
-                         const SqueezeRun& run, const std::filesystem::path& folder) {
-  writeSqueezeResults(world.head(options), run.trials, {run.pictures, runNotes(run)},
+void writeComparisonOutcome(const SessionOptions& options, const SqueezeWorld& world,
+                         const ComparisonRun& run, const std::filesystem::path& folder) {
+  writeComparisonResults(world.head(options), run.trials, {run.pictures, runNotes(run)},
                       folder / "session.palpa");
 
-  for (const task_squeeze::CompletedSqueeze& trial : run.trials)
+  for (const task_comparison::CompletedComparison& trial : run.trials)
     std::printf("Trial %d (%s, simulated): %s\n", trial.trial.trial,
                 training::nameOf(trial.trial.role).c_str(),
                 trial.reason.empty() ? summaryOf(trial.trial).c_str() : trial.reason.c_str());

@@ -4,7 +4,7 @@
 
 #include "apps/session/session_facts.h"
 #include "apps/session/session_frame.h"
-#include "apps/task_squeeze/squeeze_task.h"
+#include "apps/task_comparison/comparison_task.h"
 
 namespace palpa::session {
 
@@ -16,7 +16,7 @@ struct SqueezeWorld {
   SqueezeWorld& operator=(const SqueezeWorld&) = delete;
 
   station::Station station;
-  task_squeeze::SqueezeSettings task;
+  task_comparison::ComparisonSettings task;
   anatomy::Patient object;  ///< as it is shown
   /// its middle at rest, x from the second tool to the first; as shown
   Pose X_WO = Pose::Identity(), X_WA = Pose::Identity();
@@ -27,23 +27,23 @@ struct SqueezeWorld {
   record::SessionInfo info(const SessionOptions& options) const;
 };
 
-struct SqueezeRun : SessionRun {
-  std::vector<task_squeeze::CompletedSqueeze> trials;
+struct ComparisonRun : SessionRun {
+  std::vector<task_comparison::CompletedComparison> trials;
 };
 
 /// Runs the trials; leaves session.palpa and view-*.png in `folder`.
-SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
+ComparisonRun runComparison(const SessionOptions& options, const SqueezeWorld& world,
                       const std::filesystem::path& folder);
 
 /// trials.csv and report.html beside the evidence, from trials as the session judged them or as
 /// they were judged again.
-void writeSqueezeResults(const ReportHead& head,
-                         const std::vector<task_squeeze::CompletedSqueeze>& trials,
+void writeComparisonResults(const ReportHead& head,
+                         const std::vector<task_comparison::CompletedComparison>& trials,
                          const ReportTail& tail, const std::filesystem::path& evidence);
 
 /// The same of a session that has just ended; the last lines on standard output say what was
 /// written.
-void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
-                         const SqueezeRun& run, const std::filesystem::path& folder);
+void writeComparisonOutcome(const SessionOptions& options, const SqueezeWorld& world,
+                         const ComparisonRun& run, const std::filesystem::path& folder);
 
 }  // namespace palpa::session

@@ -18,7 +18,7 @@
 #include "apps/session/search_session.h"
 #include "apps/session/session_facts.h"
 #include "apps/session/session_records.h"
-#include "apps/session/squeeze_session.h"
+#include "apps/session/comparison_session.h"
 
 namespace palpa::session {
 namespace {
@@ -222,10 +222,10 @@ void writeReportOf(const LeftSession& session, const std::string& made) {
                                                   &evidence::RecordedSearch::again),
           tail, session.evidence);
     case Engine::squeeze:
-      return writeSqueezeResults(
+      return writeComparisonResults(
           head,
-          endedOnes<task_squeeze::CompletedSqueeze>(evidence::recordedSqueezes(session.reader),
-                                                    &evidence::RecordedSqueeze::again),
+          endedOnes<task_comparison::CompletedComparison>(evidence::recordedComparisons(session.reader),
+                                                    &evidence::RecordedComparison::again),
           tail, session.evidence);
   }
 }

@@ -11,7 +11,7 @@
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_records.h"
-#include "apps/session/squeeze_session.h"
+#include "apps/session/comparison_session.h"
 
 namespace palpa::session {
 
@@ -88,8 +88,8 @@ SessionLeft holdSqueeze(SessionOptions options) {
   const SqueezeWorld world(options);
   checkTrainee(options);
   return heldIn(options, [&](const std::filesystem::path& folder) {
-    const SqueezeRun run = runSqueeze(options, world, folder);
-    writeSqueezeOutcome(options, world, run, folder);
+    const ComparisonRun run = runComparison(options, world, folder);
+    writeComparisonOutcome(options, world, run, folder);
     return run.quit;
   });
 }

@@ -1,4 +1,4 @@
-#include "apps/task_squeeze/squeeze_file.h"
+#include "apps/task_comparison/comparison_file.h"
 
 #include <cmath>
 
@@ -8,10 +8,10 @@
 #include "anatomy/base/random.h"
 #include "apps/training/engine.h"
 
-namespace palpa::task_squeeze {
+namespace palpa::task_comparison {
 namespace {
 
-using assess::SqueezedProperty;
+using assess::ComparedProperty;
 
 std::vector<double> factorsIn(const JsonFile& file, const char* property) {
   constexpr double kLeast = 0.3,
@@ -27,11 +27,11 @@ std::vector<double> factorsIn(const JsonFile& file, const char* property) {
 
 }  // namespace
 
-SqueezeSettings readSqueeze(const std::filesystem::path& path) {
+ComparisonSettings readSqueeze(const std::filesystem::path& path) {
   const JsonFile file(path);
   training::needEngine(file, training::Engine::squeeze);
   needKind(file, "task_squeeze", 1);
-  SqueezeSettings s;
+  ComparisonSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
   s.library = station::readLumps(path.parent_path() / file.text("lumps"));
@@ -49,19 +49,19 @@ SqueezeSettings readSqueeze(const std::filesystem::path& path) {
   return s;
 }
 
-std::vector<SqueezeComparison> comparisonsOf(const SqueezeSettings& settings, std::uint64_t seed,
+std::vector<Comparison> comparisonsOf(const ComparisonSettings& settings, std::uint64_t seed,
                                              int count) {
-  std::vector<SqueezeComparison> round;
-  const auto add = [&round](SqueezedProperty property, const std::vector<double>& factors) {
+  std::vector<Comparison> round;
+  const auto add = [&round](ComparedProperty property, const std::vector<double>& factors) {
     for (const double factor : factors) {
       round.push_back({property, {1, factor}});
       round.push_back({property, {factor, 1}});
     }
   };
-  add(SqueezedProperty::stiffness, settings.stiffness);
-  add(SqueezedProperty::weight, settings.weight);
+  add(ComparedProperty::stiffness, settings.stiffness);
+  add(ComparedProperty::weight, settings.weight);
   RandomStream random(seed, "squeeze.comparisons");
-  std::vector<SqueezeComparison> all;
+  std::vector<Comparison> all;
   while (static_cast<int>(all.size()) < count) {
     for (std::size_t i = round.size(); i > 1; --i)
       std::swap(round[i - 1],
@@ -72,18 +72,18 @@ std::vector<SqueezeComparison> comparisonsOf(const SqueezeSettings& settings, st
   return all;
 }
 
-std::string comparisonText(const SqueezeComparison& comparison) {
+std::string comparisonText(const Comparison& comparison) {
   return nlohmann::json{
-      {"property", comparison.property == SqueezedProperty::stiffness ? "stiffness" : "weight"},
+      {"property", comparison.property == ComparedProperty::stiffness ? "stiffness" : "weight"},
       {"factors", comparison.factors}}
       .dump();
 }
 
-SqueezeComparison comparisonIn(const std::string& text) {
+Comparison comparisonIn(const std::string& text) {
   try {
     const nlohmann::json said = parseJson(text);
-    return {said.at("property").get<std::string>() == "weight" ? SqueezedProperty::weight
-                                                               : SqueezedProperty::stiffness,
+    return {said.at("property").get<std::string>() == "weight" ? ComparedProperty::weight
+                                                               : ComparedProperty::stiffness,
             said.at("factors").get<std::array<double, 2>>()};
   } catch (const nlohmann::json::exception& e) {
     throw Error("does not describe two things (" + whyNoJson(text, e) + ")", "event \"case\"",
@@ -91,4 +91,4 @@ SqueezeComparison comparisonIn(const std::string& text) {
   }
 }
 
-}  // namespace palpa::task_squeeze
+}  // namespace palpa::task_comparison

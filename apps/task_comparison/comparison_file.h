@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/assess/comparison/comparison_trial.h"
 #include "apps/station/material_files.h"
 #include "apps/station/task_sections.h"
 
-namespace palpa::task_squeeze {
+namespace palpa::task_comparison {
 
 /// A comparison task as its file says it (assets/tasks/squeeze.json).
-struct SqueezeSettings {
+struct ComparisonSettings {
   std::string id, title;
   station::LumpLibrary library;           ///< its surface is what the object's sides are made of
   double half = 0.03, mass = 0.02;        ///< m, from the middle to a side; kg, of the real object
@@ -24,21 +24,21 @@ struct SqueezeSettings {
 };
 
 /// Throws UsageError naming file and field, Error for a library that cannot be used.
-SqueezeSettings readSqueeze(const std::filesystem::path& file);
+ComparisonSettings readSqueeze(const std::filesystem::path& file);
 
 /// Two things that are felt in a trial: of what they differ, and by how much of the real thing's.
-struct SqueezeComparison {
-  assess::SqueezedProperty property = assess::SqueezedProperty::stiffness;
+struct Comparison {
+  assess::ComparedProperty property = assess::ComparedProperty::stiffness;
   std::array<double, 2> factors{1, 1};
 };
 /// So many, the same for the same seed: every difference as often as every other, the real thing as
 /// often first as second, in no order.
-std::vector<SqueezeComparison> comparisonsOf(const SqueezeSettings& settings, std::uint64_t seed,
+std::vector<Comparison> comparisonsOf(const ComparisonSettings& settings, std::uint64_t seed,
                                              int count);
 
 /// A comparison as its event in the record says it, and read again. Throws Error for words that are
 /// none.
-std::string comparisonText(const SqueezeComparison& comparison);
-SqueezeComparison comparisonIn(const std::string& text);
+std::string comparisonText(const Comparison& comparison);
+Comparison comparisonIn(const std::string& text);
 
-}  // namespace palpa::task_squeeze
+}  // namespace palpa::task_comparison

@@ -1,9 +1,9 @@
-#include "apps/task_squeeze/squeeze_scene.h"
+#include "apps/task_comparison/comparison_scene.h"
 
 #include <algorithm>
 #include <cstdio>
 
-namespace palpa::task_squeeze {
+namespace palpa::task_comparison {
 
 Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, bool held) {
   return held ? makePose(Mat3::Identity(), 0.5 * (first_A + second_A) - middle_A)
@@ -38,21 +38,21 @@ std::vector<scene::ForceArrow> squeezeForces(const std::array<ShownTool, 2>& too
   return all;
 }
 
-SqueezeScene::SqueezeScene(const SqueezeSceneSetup& setup, runtime::Bus& bus,
-                           SqueezeChannels& channels)
+ComparisonScene::ComparisonScene(const ComparisonSceneSetup& setup, runtime::Bus& bus,
+                           ComparisonChannels& channels)
     : TrialScene(setup.stage, bus, channels),
       setup_(setup),
       channels_(channels),
       bus_(bus),
       X_AD2_((setup.X_WD2.inverse() * setup.stage.X_WA).inverse()) {}
 
-const trial::TrialStatus& SqueezeScene::readStatus(std::int64_t now_ns) {
-  if (const SqueezeStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
+const trial::TrialStatus& ComparisonScene::readStatus(std::int64_t now_ns) {
+  if (const ComparisonStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
   if (const runtime::ToolState* tool = bus_.second_to_scene.read(now_ns)) second_ = *tool;
   return status_;
 }
 
-void SqueezeScene::compose(scene::SceneState& state, const runtime::ToolState& tool,
+void ComparisonScene::compose(scene::SceneState& state, const runtime::ToolState& tool,
                            const std::string& trouble) {
   state.tool = scene::Tool::probe;
   state.skin = scene::SkinStyle::solid;
@@ -64,14 +64,14 @@ void SqueezeScene::compose(scene::SceneState& state, const runtime::ToolState& t
       {{{tool, X_AD(), state.X_AT}, {second_, X_AD2_, *state.second_X_AT}}}, setup_.apart);
 }
 
-void SqueezeScene::addTo(runtime::Displayed& displayed, const runtime::ToolState&) {
+void ComparisonScene::addTo(runtime::Displayed& displayed, const runtime::ToolState&) {
   displayed.second_X_AT = X_AD2_ * unpack(second_.X_DT);
-  displayed.question = status_.property == assess::SqueezedProperty::stiffness
+  displayed.question = status_.property == assess::ComparedProperty::stiffness
                            ? runtime::Displayed::Question::harder
                            : runtime::Displayed::Question::heavier;
 }
 
-scene::Hud SqueezeScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
+scene::Hud ComparisonScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
   scene::Hud hud;
   char text[96];
   if (status_.trials > 1 && status_.trial > 0) {
@@ -93,4 +93,4 @@ scene::Hud SqueezeScene::words(const runtime::ToolState& tool, const std::string
   return hud;
 }
 
-}  // namespace palpa::task_squeeze
+}  // namespace palpa::task_comparison

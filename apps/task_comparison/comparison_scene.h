@@ -3,13 +3,13 @@
 #include <array>
 #include <vector>
 
-#include "apps/task_squeeze/squeeze_task.h"
+#include "apps/task_comparison/comparison_task.h"
 #include "apps/trial/trial_scene.h"
 
-namespace palpa::task_squeeze {
+namespace palpa::task_comparison {
 
 /// What a comparison is shown with.
-struct SqueezeSceneSetup {
+struct ComparisonSceneSetup {
   trial::TrialScene::Stage stage;
   Pose X_WD2 = Pose::Identity();  ///< the second device's base
   Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
@@ -18,9 +18,9 @@ struct SqueezeSceneSetup {
 
 /// What is seen of a comparison: the object, moving with the fingers that hold it, both tools, what
 /// each finger feels.
-class SqueezeScene final : public trial::TrialScene {
+class ComparisonScene final : public trial::TrialScene {
  public:
-  SqueezeScene(const SqueezeSceneSetup& setup, runtime::Bus& bus, SqueezeChannels& channels);
+  ComparisonScene(const ComparisonSceneSetup& setup, runtime::Bus& bus, ComparisonChannels& channels);
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
@@ -29,11 +29,11 @@ class SqueezeScene final : public trial::TrialScene {
   void addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
 
-  SqueezeSceneSetup setup_;
-  SqueezeChannels& channels_;
+  ComparisonSceneSetup setup_;
+  ComparisonChannels& channels_;
   runtime::Bus& bus_;
   Pose X_AD2_;
-  SqueezeStatus status_;
+  ComparisonStatus status_;
   runtime::ToolState second_;
 };
 
@@ -53,4 +53,4 @@ std::vector<scene::ForceArrow> squeezeForces(const std::array<ShownTool, 2>& too
 /// Where the object is shown, as moved from where it rests: between the tips that hold it.
 Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, bool held);
 
-}  // namespace palpa::task_squeeze
+}  // namespace palpa::task_comparison

@@ -1,11 +1,11 @@
-#include "apps/task_squeeze/squeeze_task.h"
+#include "apps/task_comparison/comparison_task.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
-namespace palpa::task_squeeze {
+namespace palpa::task_comparison {
 
 using runtime::EventKind;
 using training::Outcome;
@@ -24,20 +24,20 @@ double feltN(const haptics::FlightRecord& r) {
 
 }  // namespace
 
-void commandLoop(const SqueezeComparison& comparison, int thing, haptics::TickCommands* commands) {
+void commandLoop(const Comparison& comparison, int thing, haptics::TickCommands* commands) {
   const auto factor = static_cast<float>(comparison.factors[static_cast<std::size_t>(thing)]);
   commands->squeeze_stiffness =
-      comparison.property == assess::SqueezedProperty::stiffness ? factor : 1;
-  commands->squeeze_weight = comparison.property == assess::SqueezedProperty::weight ? factor : 1;
+      comparison.property == assess::ComparedProperty::stiffness ? factor : 1;
+  commands->squeeze_weight = comparison.property == assess::ComparedProperty::weight ? factor : 1;
 }
 
-void SqueezeListener::begin(std::uint32_t trial, const SqueezeComparison& comparison) {
-  *this = SqueezeListener(touch_);
+void ComparisonListener::begin(std::uint32_t trial, const Comparison& comparison) {
+  *this = ComparisonListener(touch_);
   trial_ = trial;
   comparison_ = comparison;
 }
 
-int SqueezeListener::thing(const haptics::TickCommands& commands) const {
+int ComparisonListener::thing(const haptics::TickCommands& commands) const {
   haptics::TickCommands second;
   commandLoop(comparison_, 1, &second);
   return commands.squeeze_stiffness == second.squeeze_stiffness &&
@@ -46,7 +46,7 @@ int SqueezeListener::thing(const haptics::TickCommands& commands) const {
              : 0;
 }
 
-void SqueezeListener::add(const haptics::FlightRecord& record) {
+void ComparisonListener::add(const haptics::FlightRecord& record) {
   if (record.commands.trial != trial_ || !record.commands.armed) return;
   if (record.tool == 0) {
     first_ = record;
@@ -65,8 +65,8 @@ void SqueezeListener::add(const haptics::FlightRecord& record) {
   peak_ = std::max(peak_, now_N_);
 }
 
-assess::SqueezeTrial judged(assess::SqueezeTrial facts, const SqueezeComparison& comparison,
-                            const SqueezeListener& listener, int said) {
+assess::ComparisonTrial judged(assess::ComparisonTrial facts, const Comparison& comparison,
+                            const ComparisonListener& listener, int said) {
   facts.property = comparison.property;
   facts.factors = comparison.factors;
   facts.said = said;
@@ -76,7 +76,7 @@ assess::SqueezeTrial judged(assess::SqueezeTrial facts, const SqueezeComparison&
   return facts;
 }
 
-std::string scoreJson(const assess::SqueezeTrial& trial) {
+std::string scoreJson(const assess::ComparisonTrial& trial) {
   return nlohmann::json{{"RIGHT", trial.right() ? 1 : 0},
                         {"SAID", trial.said},
                         {"PEAK_N", trial.peak_N},
@@ -85,8 +85,8 @@ std::string scoreJson(const assess::SqueezeTrial& trial) {
       .dump();
 }
 
-SqueezeTask::SqueezeTask(const SqueezeTaskSetup& setup, runtime::Bus& bus,
-                         SqueezeChannels& channels, runtime::Executive& executive)
+ComparisonTask::ComparisonTask(const ComparisonTaskSetup& setup, runtime::Bus& bus,
+                         ComparisonChannels& channels, runtime::Executive& executive)
     : TrialTask({static_cast<int>(setup.comparisons.size()), setup.automatic, setup.not_scored,
                  setup.places, 2},
                 bus, channels, executive),
@@ -96,7 +96,7 @@ SqueezeTask::SqueezeTask(const SqueezeTaskSetup& setup, runtime::Bus& bus,
   completed_.reserve(setup.comparisons.size());
 }
 
-std::string SqueezeTask::notReady(const haptics::FlightRecord&) const {
+std::string ComparisonTask::notReady(const haptics::FlightRecord&) const {
   for (std::size_t t = 0; t < 2; ++t) {
     const std::string which = t == 0 ? "the first" : "the second";
     if (!last_of_[t].reading.homed) return which + " device is not homed";
@@ -108,7 +108,7 @@ std::string SqueezeTask::notReady(const haptics::FlightRecord&) const {
   return "";
 }
 
-runtime::TrialHeader SqueezeTask::begin(std::int64_t now_ns) {
+runtime::TrialHeader ComparisonTask::begin(std::int64_t now_ns) {
   thing_ = said_ = 0;
   listener_.begin(static_cast<std::uint32_t>(status().trial), comparison());
   const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
@@ -117,8 +117,8 @@ runtime::TrialHeader SqueezeTask::begin(std::int64_t now_ns) {
   return {status().trial, now_ns, setup_.seed, training::nameOf(role), setup_.force_feedback, 0};
 }
 
-trial::TrialTask::Conclusion SqueezeTask::conclude(Outcome outcome, const std::string& reason) {
-  assess::SqueezeTrial facts;
+trial::TrialTask::Conclusion ComparisonTask::conclude(Outcome outcome, const std::string& reason) {
+  assess::ComparisonTrial facts;
   facts.trial = status().trial;
   facts.role = status().role;
   facts.simulated = setup_.simulated;
@@ -126,12 +126,12 @@ trial::TrialTask::Conclusion SqueezeTask::conclude(Outcome outcome, const std::s
   facts.seed = setup_.seed;
   facts.outcome = outcome;
   completed_.push_back({judged(facts, comparison(), listener_, said_), reason});
-  const assess::SqueezeTrial& trial = completed_.back().trial;
+  const assess::ComparisonTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
   return {scoreJson(trial), summary, summary, "After the answer"};
 }
 
-void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
+void ComparisonTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
   const int grips = listener_.grips()[0] + listener_.grips()[1];
   listener_.add(record);
   if (listener_.grips()[0] + listener_.grips()[1] > grips)
@@ -141,13 +141,13 @@ void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns
     endTrial(Outcome::time, "The time limit was reached", now_ns);
 }
 
-void SqueezeTask::receive(const trial::UserRequest& request, std::int64_t now_ns) {
+void ComparisonTask::receive(const trial::UserRequest& request, std::int64_t now_ns) {
   if (request.command == trial::UserCommand::done) return otherThing(now_ns);
   answer(trial::gradeOf(request).hardness, now_ns);
 }
 
 /// What is held must not change in the hand.
-void SqueezeTask::otherThing(std::int64_t now_ns) {
+void ComparisonTask::otherThing(std::int64_t now_ns) {
   if (listener_.held()) {
     status().notice = "Let go first: then comes the other thing";
     return;
@@ -158,7 +158,7 @@ void SqueezeTask::otherThing(std::int64_t now_ns) {
          thing_ == 0 ? "The first thing lies there" : "The second thing lies there", thing_ + 1);
 }
 
-void SqueezeTask::answer(int said, std::int64_t now_ns) {
+void ComparisonTask::answer(int said, std::int64_t now_ns) {
   if (said != 1 && said != 2) return;
   if (listener_.grips()[0] == 0 || listener_.grips()[1] == 0) {
     status().notice = "Hold both first, the one and the other";
@@ -170,11 +170,11 @@ void SqueezeTask::answer(int said, std::int64_t now_ns) {
   endTrial(Outcome::done, "", now_ns);
 }
 
-void SqueezeTask::command(haptics::TickCommands& commands) const {
+void ComparisonTask::command(haptics::TickCommands& commands) const {
   commandLoop(comparison(), thing_, &commands);
 }
 
-void SqueezeTask::publishStatus(std::int64_t now_ns) {
+void ComparisonTask::publishStatus(std::int64_t now_ns) {
   if (status().trial > 0) shown_.property = comparison().property;
   shown_.thing = thing_;
   shown_.squeezed_N = listener_.now_N();
@@ -183,4 +183,4 @@ void SqueezeTask::publishStatus(std::int64_t now_ns) {
   channels_.status_to_scene.publish(shown_, now_ns);
 }
 
-}  // namespace palpa::task_squeeze
+}  // namespace palpa::task_comparison

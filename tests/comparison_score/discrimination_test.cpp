@@ -1,4 +1,4 @@
-#include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/assess/comparison/comparison_trial.h"
 #include "apps/training/trial_words.h"
 
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 namespace palpa::assess {
 namespace {
 
-SqueezeTrial answer(double first, double second, int said) {
-  SqueezeTrial trial;
+ComparisonTrial answer(double first, double second, int said) {
+  ComparisonTrial trial;
   trial.outcome = training::Outcome::done;
   trial.factors = {first, second};
   trial.said = said;
@@ -18,11 +18,11 @@ SqueezeTrial answer(double first, double second, int said) {
 }
 
 /// Answers of somebody whose feeling scatters by `sd` of the logarithm.
-std::vector<SqueezeTrial> answersOf(double sd, int count, unsigned seed) {
+std::vector<ComparisonTrial> answersOf(double sd, int count, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> scatter(0, sd);
   const double ratios[] = {0.75, 0.87, 1.15, 1.33};
-  std::vector<SqueezeTrial> trials;
+  std::vector<ComparisonTrial> trials;
   for (int i = 0; i < count; ++i) {
     const double second = ratios[i % 4];
     trials.push_back(
@@ -31,14 +31,14 @@ std::vector<SqueezeTrial> answersOf(double sd, int count, unsigned seed) {
   return trials;
 }
 
-TEST(SqueezeTrial, KnowsWhatIsRight) {
+TEST(ComparisonTrial, KnowsWhatIsRight) {
   EXPECT_TRUE(answer(1, 1.33, 2).right());
   EXPECT_FALSE(answer(1, 1.33, 1).right());
   EXPECT_TRUE(answer(1.33, 1, 1).right());
   EXPECT_FALSE(answer(1, 1.33, 0).answered());
   EXPECT_EQ(summaryOf(answer(1, 1.33, 2)), "Right: the second one was harder, by 33 %.");
   EXPECT_EQ(summaryOf(answer(1, 0.75, 2)), "Wrong: the first one was harder, by 33 %.");
-  SqueezeTrial timed = answer(1, 1.33, 2);
+  ComparisonTrial timed = answer(1, 1.33, 2);
   timed.outcome = training::Outcome::time;
   EXPECT_FALSE(timed.right());
 }
@@ -46,19 +46,19 @@ TEST(SqueezeTrial, KnowsWhatIsRight) {
 TEST(Discrimination, CountsByRatioWhicheverCameFirst) {
   const Discrimination d =
       discriminationIn({answer(1, 1.25, 2), answer(1.25, 1, 2), answer(1, 2, 2), answer(1, 2, 0)},
-                       SqueezedProperty::stiffness);
+                       ComparedProperty::stiffness);
   ASSERT_EQ(d.shares.size(), 2u);
   EXPECT_EQ(d.shares[0].right, 1);
   EXPECT_EQ(d.shares[0].of, 2);
   EXPECT_EQ(d.of, 3);
   EXPECT_FALSE(d.threshold) << "too few";
-  EXPECT_EQ(discriminationIn({answer(1, 1.25, 2)}, SqueezedProperty::weight).of, 0);
+  EXPECT_EQ(discriminationIn({answer(1, 1.25, 2)}, ComparedProperty::weight).of, 0);
 }
 
 TEST(Discrimination, FindsTheThresholdItWasMadeWith) {
   for (const double sd : {0.08, 0.2}) {
     const std::optional<Threshold> found =
-        discriminationIn(answersOf(sd, 4000, 5), SqueezedProperty::stiffness).threshold;
+        discriminationIn(answersOf(sd, 4000, 5), ComparedProperty::stiffness).threshold;
     ASSERT_TRUE(found);
     EXPECT_NEAR(std::log(found->ratio), 0.67449 * std::sqrt(2.0) * sd, 0.08 * sd);
   }
@@ -70,7 +70,7 @@ TEST(Discrimination, ItsIntervalIsHonest) {
   int holds = 0, told = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     const std::optional<Threshold> found =
-        discriminationIn(answersOf(0.15, 80, seed), SqueezedProperty::stiffness).threshold;
+        discriminationIn(answersOf(0.15, 80, seed), ComparedProperty::stiffness).threshold;
     if (!found) continue;
     ++told;
     holds += (!found->low || *found->low <= truth) && (!found->high || *found->high >= truth);
@@ -81,11 +81,11 @@ TEST(Discrimination, ItsIntervalIsHonest) {
 }
 
 TEST(Discrimination, AllRightOrChanceTellNoThreshold) {
-  std::vector<SqueezeTrial> right(12, answer(1, 1.33, 2)), chance;
+  std::vector<ComparisonTrial> right(12, answer(1, 1.33, 2)), chance;
   for (int i = 0; i < 40; ++i) chance.push_back(answer(1, 1.33, 1 + i % 2));
-  EXPECT_FALSE(discriminationIn(right, SqueezedProperty::stiffness).threshold);
+  EXPECT_FALSE(discriminationIn(right, ComparedProperty::stiffness).threshold);
   const std::optional<Threshold> none =
-      discriminationIn(chance, SqueezedProperty::stiffness).threshold;
+      discriminationIn(chance, ComparedProperty::stiffness).threshold;
   EXPECT_TRUE(!none || !none->high);
 }
 

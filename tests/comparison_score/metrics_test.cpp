@@ -1,4 +1,4 @@
-#include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/assess/comparison/comparison_trial.h"
 #include "apps/training/trial_words.h"
 
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 namespace palpa::assess {
 namespace {
 
-TEST(SqueezeMetrics, OfAComparisonMadeByHand) {
-  SqueezeTrial trial;
+TEST(ComparisonMetrics, OfAComparisonMadeByHand) {
+  ComparisonTrial trial;
   trial.outcome = training::Outcome::done;
   trial.factors = {1.0, 1.25};
   trial.said = 2;
@@ -16,7 +16,7 @@ TEST(SqueezeMetrics, OfAComparisonMadeByHand) {
   trial.grips = {2, 3};
   const std::pair<const char*, double> expected[] = {
       {"success", 1}, {"time_s", 12}, {"difference_pct", 25}, {"grips", 5}, {"peak_force_N", 4}};
-  const auto all = squeezeMetrics(trial);
+  const auto all = comparisonMetrics(trial);
   ASSERT_EQ(all.size(), 5u);
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(all[i].name, expected[i].first);
@@ -26,7 +26,7 @@ TEST(SqueezeMetrics, OfAComparisonMadeByHand) {
         << all[i].name;
   }
   trial.said = 1;
-  EXPECT_EQ(squeezeMetrics(trial)[0].value, 0);
+  EXPECT_EQ(comparisonMetrics(trial)[0].value, 0);
 }
 
 }  // namespace

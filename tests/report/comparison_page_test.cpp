@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/report/squeeze/squeeze_report.h"
+#include "apps/report/comparison/comparison_report.h"
 #include "apps/training/trial_words.h"
 #include "tests/support/files.h"
 #include "well_formed.h"
@@ -8,9 +8,9 @@
 namespace palpa::report {
 namespace {
 
-assess::SqueezeTrial answered(int trial, assess::SqueezedProperty property, double second,
+assess::ComparisonTrial answered(int trial, assess::ComparedProperty property, double second,
                               int said) {
-  assess::SqueezeTrial t;
+  assess::ComparisonTrial t;
   t.trial = trial;
   t.role = training::Role::scored;
   t.outcome = training::Outcome::done;
@@ -23,26 +23,26 @@ assess::SqueezeTrial answered(int trial, assess::SqueezedProperty property, doub
   return t;
 }
 
-SqueezeReport someAnswers() {
-  SqueezeReport report;
+ComparisonReport someAnswers() {
+  ComparisonReport report;
   report.title = "Which is <harder>?";
   report.trainee = "T007";
   report.too_hard_N = 2;
   int trial = 0;
   for (int i = 0; i < 6; ++i) {
     report.trials.push_back(
-        answered(++trial, assess::SqueezedProperty::stiffness, 1.5, i == 0 ? 1 : 2));
+        answered(++trial, assess::ComparedProperty::stiffness, 1.5, i == 0 ? 1 : 2));
     report.trials.push_back(
-        answered(++trial, assess::SqueezedProperty::stiffness, 0.8, i < 2 ? 2 : 1));
+        answered(++trial, assess::ComparedProperty::stiffness, 0.8, i < 2 ? 2 : 1));
   }
-  report.trials.push_back(answered(++trial, assess::SqueezedProperty::weight, 2, 2));
+  report.trials.push_back(answered(++trial, assess::ComparedProperty::weight, 2, 2));
   report.trials.back().peak_N = 2.5;
   return report;
 }
 
-std::string pageOf(const SqueezeReport& report) {
+std::string pageOf(const ComparisonReport& report) {
   const std::filesystem::path file = palpa::test::freshFolder("report", "squeeze") / "report.html";
-  writeSqueezeReport(report, file);
+  writeComparisonReport(report, file);
   std::string page = palpa::test::slurp(file);
   EXPECT_EQ(test::faultOf(page), "");
   return page;
@@ -52,7 +52,7 @@ bool saysPage(const std::string& page, const std::string& words) {
   return page.find(words) != std::string::npos;
 }
 
-TEST(SqueezePage, SaysWhatWasToldApart) {
+TEST(ComparisonPage, SaysWhatWasToldApart) {
   const std::string page = pageOf(someAnswers());
   for (const char* words :
        {"9 of 12 answers were right", "Three of four answers are right from a difference of about",
@@ -62,20 +62,20 @@ TEST(SqueezePage, SaysWhatWasToldApart) {
   EXPECT_FALSE(saysPage(page, "SIMULATED"));
 }
 
-TEST(SqueezePage, AThresholdFarAboveWhatWasAskedIsNotGivenAsAFigure) {
-  SqueezeReport report = someAnswers();
+TEST(ComparisonPage, AThresholdFarAboveWhatWasAskedIsNotGivenAsAFigure) {
+  ComparisonReport report = someAnswers();
   report.trials.clear();
   for (int i = 0; i < 40; ++i)
     report.trials.push_back(
-        answered(i + 1, assess::SqueezedProperty::stiffness, 1.2, i < 22 ? 2 : 1));
+        answered(i + 1, assess::ComparedProperty::stiffness, 1.2, i < 22 ? 2 : 1));
   const std::string page = pageOf(report);
   EXPECT_TRUE(saysPage(page, "only from a difference well above those asked"));
   EXPECT_FALSE(saysPage(page, "answers are right from a difference of about"));
 }
 
-TEST(SqueezePage, SimulatedIsSaidOnTopAndVoidIsNotCounted) {
-  SqueezeReport report = someAnswers();
-  for (assess::SqueezeTrial& trial : report.trials) trial.outcome = training::Outcome::voided;
+TEST(ComparisonPage, SimulatedIsSaidOnTopAndVoidIsNotCounted) {
+  ComparisonReport report = someAnswers();
+  for (assess::ComparisonTrial& trial : report.trials) trial.outcome = training::Outcome::voided;
   report.simulated = true;
   const std::string page = pageOf(report);
   EXPECT_TRUE(saysPage(page, "SIMULATED"));
@@ -83,10 +83,10 @@ TEST(SqueezePage, SimulatedIsSaidOnTopAndVoidIsNotCounted) {
   EXPECT_TRUE(saysPage(page, "(not counted)"));
 }
 
-TEST(SqueezeCsv, ARowATrial) {
+TEST(ComparisonCsv, ARowATrial) {
   const std::filesystem::path file =
       palpa::test::freshFolder("report", "squeeze_csv") / "trials.csv";
-  writeSqueezeCsv("T,7", {answered(3, assess::SqueezedProperty::weight, 1.43, 2)}, file);
+  writeComparisonCsv("T,7", {answered(3, assess::ComparedProperty::weight, 1.43, 2)}, file);
   EXPECT_EQ(palpa::test::slurp(file),
             "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_"
             "S,GRIPS_FIRST,GRIPS_SECOND\n\"T,7\",3,0,0,1,done,weight,1,1.43,2,1,0.9,14.2,1,1\n");

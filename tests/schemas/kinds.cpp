@@ -18,7 +18,7 @@
 #include "apps/task_needle/task_file.h"
 #include "apps/task_palpation/palpation_file.h"
 #include "apps/task_search/search_file.h"
-#include "apps/task_squeeze/squeeze_file.h"
+#include "apps/task_comparison/comparison_file.h"
 #include "apps/twin/bench_faults.h"
 #include "apps/twin/bench_truth.h"
 #include "apps/twin/feeling_hands.h"
@@ -164,7 +164,7 @@ std::vector<Kind> taskKinds() {
            .elsewhere = {}},
           {.name = "task_squeeze",
            .samples = {{"tasks/squeeze.json", json::object()}},
-           .read = [](const fs::path& file) { task_squeeze::readSqueeze(file); },
+           .read = [](const fs::path& file) { task_comparison::readSqueeze(file); },
            .stricter = {"/lumps.*"},
            .forgiving = {},
            .elsewhere = {}}};

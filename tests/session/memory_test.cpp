@@ -6,7 +6,7 @@
 #include "anatomy/base/quantile.h"
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
-#include "apps/session/squeeze_session.h"
+#include "apps/session/comparison_session.h"
 #include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
 #include "tests/support/live_bytes.h"
@@ -90,7 +90,7 @@ TEST(Memory, OfASearchIsThatOfItsResults) {
 TEST(Memory, OfASqueezeIsThatOfItsResults) {
   EXPECT_LT(heldPerTrial<SqueezeWorld>(2,
                                        [](const SessionOptions& options, const auto& world) {
-                                         return runSqueeze(options, world, freshPlace("squeeze"));
+                                         return runComparison(options, world, freshPlace("squeeze"));
                                        }),
             kResultBytes);
 }

@@ -5,16 +5,16 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
-#include "apps/task_squeeze/squeeze_scene.h"
+#include "apps/task_comparison/comparison_scene.h"
 #include "tests/support/files.h"
 
-namespace palpa::task_squeeze {
+namespace palpa::task_comparison {
 namespace {
 
 const std::string kTask = std::string(PALPA_SOURCE_DIR) + "/assets/tasks/squeeze.json";
 
-TEST(SqueezeFile, TheShippedOneIsRead) {
-  const SqueezeSettings s = readSqueeze(kTask);
+TEST(ComparisonFile, TheShippedOneIsRead) {
+  const ComparisonSettings s = readSqueeze(kTask);
   EXPECT_EQ(s.stiffness.size(), 6u);
   EXPECT_EQ(s.weight.size(), 6u);
   EXPECT_NEAR(s.mass, 0.02, 1e-12);
@@ -36,7 +36,7 @@ std::string whyRefused(const nlohmann::json& change) {
   return "";
 }
 
-TEST(SqueezeFile, WhatIsNoComparisonIsRefusedByName) {
+TEST(ComparisonFile, WhatIsNoComparisonIsRefusedByName) {
   const auto expectRefused = [](const nlohmann::json& compare, const std::string& words) {
     const std::string why = whyRefused({{"compare", compare}});
     EXPECT_NE(why.find(words), std::string::npos) << compare << ": " << why;
@@ -50,10 +50,10 @@ TEST(SqueezeFile, WhatIsNoComparisonIsRefusedByName) {
   expectRefused({{"weight", {1}}}, "field \"compare/weight\" must hold numbers from 0.3 to 3");
 }
 
-TEST(SqueezeFile, EveryDifferenceAsOftenAndEveryOrder) {
-  const SqueezeSettings s = readSqueeze(kTask);
+TEST(ComparisonFile, EveryDifferenceAsOftenAndEveryOrder) {
+  const ComparisonSettings s = readSqueeze(kTask);
   std::map<std::pair<int, std::array<double, 2>>, int> times;
-  for (const SqueezeComparison& c : comparisonsOf(s, 3, 72))
+  for (const Comparison& c : comparisonsOf(s, 3, 72))
     ++times[{static_cast<int>(c.property), c.factors}];
   EXPECT_EQ(times.size(), 24u);
   for (const auto& [which, count] : times) EXPECT_EQ(count, 3);
@@ -68,8 +68,8 @@ TEST(SqueezeFile, EveryDifferenceAsOftenAndEveryOrder) {
   EXPECT_EQ(comparisonsOf(s, 3, 5).size(), 5u);
 }
 
-TEST(SqueezeFile, AComparisonIsWrittenAndReadAgain) {
-  const SqueezeComparison c{assess::SqueezedProperty::weight, {1, 1.43}},
+TEST(ComparisonFile, AComparisonIsWrittenAndReadAgain) {
+  const Comparison c{assess::ComparedProperty::weight, {1, 1.43}},
       again = comparisonIn(comparisonText(c));
   EXPECT_EQ(again.property, c.property);
   EXPECT_EQ(again.factors, c.factors);
@@ -78,7 +78,7 @@ TEST(SqueezeFile, AComparisonIsWrittenAndReadAgain) {
 }
 
 /// What both tools tell of a tick.
-void hear(SqueezeListener& listener, const SqueezeComparison& comparison, int thing,
+void hear(ComparisonListener& listener, const Comparison& comparison, int thing,
           std::int64_t t_ms, double real_N, double device_N) {
   haptics::FlightRecord r;
   r.t_ns = t_ms * 1'000'000;
@@ -95,9 +95,9 @@ void hear(SqueezeListener& listener, const SqueezeComparison& comparison, int th
   }
 }
 
-TEST(SqueezeListener, CountsGripsOfEachAndFeelsBothForces) {
-  const SqueezeComparison c{assess::SqueezedProperty::stiffness, {1, 1.5}};
-  SqueezeListener listener(0.1);
+TEST(ComparisonListener, CountsGripsOfEachAndFeelsBothForces) {
+  const Comparison c{assess::ComparedProperty::stiffness, {1, 1.5}};
+  ComparisonListener listener(0.1);
   listener.begin(1, c);
   std::int64_t t = 0;
   for (int i = 0; i < 300; ++i) hear(listener, c, 0, ++t, 0.6, 0);
@@ -112,9 +112,9 @@ TEST(SqueezeListener, CountsGripsOfEachAndFeelsBothForces) {
   EXPECT_NEAR(listener.seconds(), 0.849, 1e-9);
 }
 
-TEST(SqueezeListener, OneFingerIsNoGripAndAPauseIsNoTime) {
-  const SqueezeComparison c;
-  SqueezeListener listener(0.1);
+TEST(ComparisonListener, OneFingerIsNoGripAndAPauseIsNoTime) {
+  const Comparison c;
+  ComparisonListener listener(0.1);
   listener.begin(1, c);
   haptics::FlightRecord r;
   r.commands.trial = 1;
@@ -156,7 +156,7 @@ std::map<scene::ForceKind, Vec3> firstOnes(const std::vector<scene::ForceArrow>&
   return first;
 }
 
-TEST(SqueezeForces, InASessionSqueezingAndWeightAreDrawnAsTheyAreFelt) {
+TEST(ComparisonForces, InASessionSqueezingAndWeightAreDrawnAsTheyAreFelt) {
   const std::vector<scene::ForceArrow> arrows = squeezeForces(squeezing(), false);
   ASSERT_EQ(arrows.size(), 4u) << "nothing that tells the devices' part";
   const auto first = firstOnes(arrows);
@@ -165,7 +165,7 @@ TEST(SqueezeForces, InASessionSqueezingAndWeightAreDrawnAsTheyAreFelt) {
   EXPECT_LT((arrows[2].f_A - Vec3(-1.3, 0, 0)).norm(), 1e-12) << "the second tool's";
 }
 
-TEST(SqueezeForces, ApartTheyAreTheRealThingsTheDevicesAndTheirSum) {
+TEST(ComparisonForces, ApartTheyAreTheRealThingsTheDevicesAndTheirSum) {
   const std::vector<scene::ForceArrow> arrows = squeezeForces(squeezing(), true);
   ASSERT_EQ(arrows.size(), 8u);
   const auto first = firstOnes(arrows);
@@ -175,7 +175,7 @@ TEST(SqueezeForces, ApartTheyAreTheRealThingsTheDevicesAndTheirSum) {
   EXPECT_LT((first.at(scene::ForceKind::felt) - Vec3(1.3, 0, -0.25)).norm(), 1e-12);
 }
 
-TEST(SqueezeScene, WhatIsHeldMovesWithTheFingers) {
+TEST(ComparisonScene, WhatIsHeldMovesWithTheFingers) {
   const Vec3 middle(0, 0.03, 0), first(0.025, 0.03, 0.02), second(-0.025, 0.03, 0.02);
   EXPECT_LT((heldPlace(first, second, middle, true).translation() - Vec3(0, 0, 0.02)).norm(),
             1e-12);
@@ -183,4 +183,4 @@ TEST(SqueezeScene, WhatIsHeldMovesWithTheFingers) {
 }
 
 }  // namespace
-}  // namespace palpa::task_squeeze
+}  // namespace palpa::task_comparison

@@ -1,4 +1,4 @@
-#include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/assess/comparison/comparison_trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 namespace palpa::assess {
 
-const char* moreOf(SqueezedProperty property) {
-  return property == SqueezedProperty::stiffness ? "harder" : "heavier";
+const char* moreOf(ComparedProperty property) {
+  return property == ComparedProperty::stiffness ? "harder" : "heavier";
 }
 
-std::string summaryOf(const SqueezeTrial& trial) {
+std::string summaryOf(const ComparisonTrial& trial) {
   if (trial.outcome == training::Outcome::voided) return "Void";
   if (!trial.answered())
     return trial.outcome == training::Outcome::time ? "The time was over before something was said."
@@ -24,7 +24,7 @@ std::string summaryOf(const SqueezeTrial& trial) {
          " %.";
 }
 
-std::vector<metrics::MetricValue> squeezeMetrics(const SqueezeTrial& t) {
+std::vector<metrics::MetricValue> comparisonMetrics(const ComparisonTrial& t) {
   return {{"success", t.right() ? 1.0 : 0.0},
           {"time_s", t.seconds},
           {"difference_pct", 100 * (t.ratio() - 1)},
@@ -76,11 +76,11 @@ std::optional<Threshold> thresholdOf(const Discrimination& answers) {
 
 }  // namespace
 
-Discrimination discriminationIn(const std::vector<SqueezeTrial>& trials,
-                                SqueezedProperty property) {
+Discrimination discriminationIn(const std::vector<ComparisonTrial>& trials,
+                                ComparedProperty property) {
   constexpr double kSame = 1e-3;  // a third more, or two thirds of it: files round
   Discrimination all;
-  for (const SqueezeTrial& trial : trials) {
+  for (const ComparisonTrial& trial : trials) {
     if (trial.property != property || !trial.answered()) continue;
     const auto at = std::find_if(
         all.shares.begin(), all.shares.end(),

@@ -11,17 +11,17 @@
 
 namespace palpa::assess {
 
-enum class SqueezedProperty { stiffness, weight };
+enum class ComparedProperty { stiffness, weight };
 
 /// Two things that differed in one property, felt one after the other; which has more of it?
 /// Factors: of the real thing's.
-struct SqueezeTrial {
+struct ComparisonTrial {
   int trial = 0;
   training::Role role = training::Role::none;
   bool simulated = false, force_feedback = true;
   std::uint64_t seed = 0;
   training::Outcome outcome = training::Outcome::none;
-  SqueezedProperty property = SqueezedProperty::stiffness;
+  ComparedProperty property = ComparedProperty::stiffness;
   std::array<double, 2> factors{1, 1};  ///< of the first thing and of the second
   int said = 0;                         ///< which has more: 1 or 2; 0: nothing was said
   double seconds = 0;
@@ -37,12 +37,12 @@ struct SqueezeTrial {
 };
 
 /// "Right: the second one was harder, by 33 %."
-std::string summaryOf(const SqueezeTrial& trial);
+std::string summaryOf(const ComparisonTrial& trial);
 /// "harder", "heavier".
-const char* moreOf(SqueezedProperty property);
+const char* moreOf(ComparedProperty property);
 
 /// All figures of a comparison, as metric_table defines them.
-std::vector<metrics::MetricValue> squeezeMetrics(const SqueezeTrial& trial);
+std::vector<metrics::MetricValue> comparisonMetrics(const ComparisonTrial& trial);
 
 /// Right answers where the larger was `ratio` times the smaller.
 struct SharesAtRatio {
@@ -69,6 +69,6 @@ struct Discrimination {
 };
 
 /// Of the answered trials about one property.
-Discrimination discriminationIn(const std::vector<SqueezeTrial>& trials, SqueezedProperty property);
+Discrimination discriminationIn(const std::vector<ComparisonTrial>& trials, ComparedProperty property);
 
 }  // namespace palpa::assess

@@ -1,11 +1,11 @@
-#include "apps/report/squeeze/squeeze_report.h"
+#include "apps/report/comparison/comparison_report.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "anatomy/base/text_forms.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/assess/comparison/comparison_trial.h"
 #include "apps/assess/statistics/sample.h"
 #include "apps/report/page/html.h"
 #include "apps/report/page/page_parts.h"
@@ -15,9 +15,9 @@
 namespace palpa::report {
 namespace {
 
-using assess::SqueezedProperty;
+using assess::ComparedProperty;
 
-constexpr std::string_view kSqueezeStyle = R"css(
+constexpr std::string_view kComparisonStyle = R"css(
 svg .grid{stroke:var(--line);stroke-width:1}
 svg .whisker{stroke:var(--ink);stroke-width:2;stroke-linecap:round}
 svg .dot-share{fill:var(--blue);stroke:var(--card);stroke-width:2}
@@ -29,12 +29,12 @@ svg .threshold.level-2{stroke-dasharray:4 4}
 .wrong-word{color:var(--bad-ink);font-weight:600}
 )css";
 
-bool countsIn(const assess::SqueezeTrial& trial) {
+bool countsIn(const assess::ComparisonTrial& trial) {
   return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided;
 }
 
-std::vector<assess::SqueezeTrial> thatCount(const std::vector<assess::SqueezeTrial>& trials) {
-  std::vector<assess::SqueezeTrial> all;
+std::vector<assess::ComparisonTrial> thatCount(const std::vector<assess::ComparisonTrial>& trials) {
+  std::vector<assess::ComparisonTrial> all;
   std::copy_if(trials.begin(), trials.end(), std::back_inserter(all), countsIn);
   return all;
 }
@@ -56,18 +56,18 @@ std::string thresholdSentence(const assess::Discrimination& answers) {
          " to " + (t.high ? percentMore(*t.high) : std::string("unbounded")) + ").";
 }
 
-void writeProperty(Html& html, const std::vector<assess::SqueezeTrial>& trials,
-                   SqueezedProperty property) {
+void writeProperty(Html& html, const std::vector<assess::ComparisonTrial>& trials,
+                   ComparedProperty property) {
   const assess::Discrimination answers = assess::discriminationIn(trials, property);
   if (answers.of == 0) return;
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", std::string("Which one is ") + assess::moreOf(property) + "?");
   html.element("p", std::to_string(answers.right) + " of " + std::to_string(answers.of) +
                         " answers were right. " + thresholdSentence(answers));
-  writeSqueezeChart(html, answers, assess::moreOf(property));
+  writeComparisonChart(html, answers, assess::moreOf(property));
 }
 
-void writeAnswers(Html& html, const SqueezeReport& report) {
+void writeAnswers(Html& html, const ComparisonReport& report) {
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", "Every answer");
   const auto table = html.in("table", {{"class", "answers"}});
@@ -79,7 +79,7 @@ void writeAnswers(Html& html, const SqueezeReport& report) {
       html.element("th", name);
   }
   const auto body = html.in("tbody");
-  for (const assess::SqueezeTrial& t : report.trials) {
+  for (const assess::ComparisonTrial& t : report.trials) {
     const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});
     html.element("td", std::to_string(t.trial) + (countsIn(t) ? "" : " (not counted)"));
     html.element("td", {{"class", t.answered() && !t.right() ? "wrong-word" : ""}}, summaryOf(t));
@@ -92,29 +92,29 @@ void writeAnswers(Html& html, const SqueezeReport& report) {
   }
 }
 
-void writeSqueezeHeader(Html& html, const SqueezeReport& report) {
+void writeComparisonHeader(Html& html, const ComparisonReport& report) {
   const auto header = html.in("header");
   html.element("h1", report.title);
   writeWho(html, report.trainee, "", report.trials.size());
   const bool simulated =
       report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
-                                      [](const assess::SqueezeTrial& t) { return t.simulated; });
+                                      [](const assess::ComparisonTrial& t) { return t.simulated; });
   if (simulated) writeSimulatedBanner(html);
 }
 
-void writeSqueezePage(Html& html, const SqueezeReport& report) {
+void writeComparisonPage(Html& html, const ComparisonReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, report.title, report.trainee, kSqueezeStyle);
+    writeHeadElement(html, report.title, report.trainee, kComparisonStyle);
     const auto body = html.in("body");
-    writeSqueezeHeader(html, report);
+    writeComparisonHeader(html, report);
     {
       const auto main = html.in("main");
-      const std::vector<assess::SqueezeTrial> trials = thatCount(report.trials);
+      const std::vector<assess::ComparisonTrial> trials = thatCount(report.trials);
       if (trials.empty()) html.element("p", "No trial counts: none was both scored and finished.");
-      writeProperty(html, trials, SqueezedProperty::stiffness);
-      writeProperty(html, trials, SqueezedProperty::weight);
+      writeProperty(html, trials, ComparedProperty::stiffness);
+      writeProperty(html, trials, ComparedProperty::weight);
       writeAnswers(html, report);
       if (!report.pictures.empty()) {
         const auto section = html.in("section", {{"class", "card"}});
@@ -136,10 +136,10 @@ void writeSqueezePage(Html& html, const SqueezeReport& report) {
 
 }  // namespace
 
-void writeSqueezeReport(const SqueezeReport& report, const std::filesystem::path& file) {
+void writeComparisonReport(const ComparisonReport& report, const std::filesystem::path& file) {
   WholeFile whole(file);
   Html html(whole);
-  writeSqueezePage(html, report);
+  writeComparisonPage(html, report);
   whole.finish();
 }
 
@@ -181,7 +181,7 @@ void drawShares(Html& html, const assess::Discrimination& answers, const char* w
 
 std::string percentMore(double ratio) { return fixed(100 * (ratio - 1), 0) + " %"; }
 
-void writeSqueezeChart(Html& html, const assess::Discrimination& answers, const char* what) {
+void writeComparisonChart(Html& html, const assess::Discrimination& answers, const char* what) {
   if (answers.shares.empty()) return;
   const auto figure = html.in("figure", {{"class", "course"}});
   drawShares(html, answers, what, kWide);
@@ -191,16 +191,16 @@ void writeSqueezeChart(Html& html, const assess::Discrimination& answers, const 
                                  "reach below the dotted line, it may have been chance.");
 }
 
-void writeSqueezeCsv(const std::string& user_id, const std::vector<assess::SqueezeTrial>& trials,
+void writeComparisonCsv(const std::string& user_id, const std::vector<assess::ComparisonTrial>& trials,
                      const std::filesystem::path& file) {
   std::string csv =
       "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_S,"
       "GRIPS_FIRST,GRIPS_SECOND\n";
-  for (const assess::SqueezeTrial& t : trials) {
+  for (const assess::ComparisonTrial& t : trials) {
     csv += csvField(user_id) + ',' + std::to_string(t.trial) + ',' + std::to_string(t.seed) +
            (t.simulated ? ",1" : ",0") + (t.force_feedback ? ",1," : ",0,") +
            csvField(training::nameOf(t.outcome));
-    csv += t.property == assess::SqueezedProperty::stiffness ? ",stiffness," : ",weight,";
+    csv += t.property == assess::ComparedProperty::stiffness ? ",stiffness," : ",weight,";
     csv += shortest(t.factors[0]) + ',' + shortest(t.factors[1]) + ',' + std::to_string(t.said) +
            (t.right() ? ",1," : ",0,") + shortest(t.peak_N) + ',' + shortest(t.seconds) + ',' +
            std::to_string(t.grips[0]) + ',' + std::to_string(t.grips[1]) + '\n';
