@@ -99,6 +99,8 @@ constexpr EngineOptions kKinds[] = {
     {Engine::squeeze, "Compare two things between two fingers: which is harder, which is heavier?",
      false, false},
     {Engine::search, "Find the rough one of three hidden discs by feel.", false, false},
+    {Engine::friction, "Stroke over one surface, then over another: which is rougher?", false,
+     false},
 };
 
 const EngineOptions& kindOf(Engine engine) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -87,6 +88,75 @@ TEST(Discrimination, AllRightOrChanceTellNoThreshold) {
   const std::optional<Threshold> none =
       discriminationIn(chance, ComparedProperty::stiffness).threshold;
   EXPECT_TRUE(!none || !none->high);
+}
+
+/// Four surfaces, said in this order.
+ComparisonTrial sorted(std::vector<double> factors, std::vector<int> order) {
+  ComparisonTrial trial;
+  trial.outcome = training::Outcome::done;
+  trial.property = ComparedProperty::friction;
+  trial.factors = std::move(factors);
+  trial.order = std::move(order);
+  return trial;
+}
+
+TEST(Sorting, KendallsTauCountsThePairsThatAreReversed) {
+  const std::vector<double> factors{1.3, 0.6, 1.7, 1};
+  EXPECT_EQ(sorted(factors, {2, 4, 1, 3}).trueOrder(), (std::vector<int>{2, 4, 1, 3}));
+  const std::pair<std::vector<int>, double> expected[] = {
+      {{2, 4, 1, 3}, 1},        // all six pairs as they are
+      {{4, 2, 1, 3}, 4.0 / 6},  // neighbours changed: one pair
+      {{2, 1, 3, 4}, 2.0 / 6},  // two pairs
+      {{3, 1, 4, 2}, -1}};      // from the roughest
+  for (const auto& [order, tau] : expected) {
+    const ComparisonTrial trial = sorted(factors, order);
+    ASSERT_TRUE(trial.tau());
+    EXPECT_NEAR(*trial.tau(), tau, 1e-12);
+    EXPECT_EQ(trial.right(), tau == 1);
+  }
+}
+
+/// By chance: of all 24 orders the mean is 0 and the variance 2 (2 n + 5) / (9 n (n - 1)).
+TEST(Sorting, OverAllOrdersTauHasKendallsMeanAndVariance) {
+  std::vector<int> order{1, 2, 3, 4};
+  double sum = 0, squares = 0;
+  int count = 0;
+  do {
+    const double tau = sorted({0.6, 0.9, 1.2, 1.5}, order).tau().value();
+    sum += tau;
+    squares += tau * tau;
+    ++count;
+  } while (std::next_permutation(order.begin(), order.end()));
+  EXPECT_EQ(count, 24);
+  EXPECT_NEAR(sum / count, 0, 1e-12);
+  EXPECT_NEAR(squares / count, 2.0 * (2 * 4 + 5) / (9 * 4 * 3), 1e-12);
+}
+
+TEST(Sorting, SaysTheOrderAndOnlyAWholeOneIsAnAnswer) {
+  const std::vector<double> factors{1, 0.6, 1.7, 1.3};
+  EXPECT_EQ(summaryOf(sorted(factors, {2, 1, 4, 3})),
+            "Right: from the smoothest it is 2, 1, 4, 3.");
+  EXPECT_EQ(summaryOf(sorted(factors, {1, 2, 4, 3})),
+            "Wrong: said 1, 2, 4, 3; from the smoothest it is 2, 1, 4, 3 (tau 0.67).");
+  for (const std::vector<int>& none :
+       {std::vector<int>{}, {1, 2, 3}, {1, 1, 2, 3}, {0, 1, 2, 3}, {1, 2, 3, 4, 5}}) {
+    const ComparisonTrial trial = sorted(factors, none);
+    EXPECT_FALSE(trial.answered());
+    EXPECT_FALSE(trial.tau());
+    EXPECT_EQ(summaryOf(trial), "Nothing was said.");
+  }
+  EXPECT_EQ(discriminationIn({sorted(factors, {2, 1, 4, 3})}, ComparedProperty::friction).of, 0)
+      << "an order is no answer about two";
+}
+
+TEST(ComparisonTrial, PropertiesHaveNamesAndWords) {
+  for (const ComparedProperty property :
+       {ComparedProperty::stiffness, ComparedProperty::weight, ComparedProperty::friction})
+    EXPECT_EQ(propertyNamed(nameOf(property)), property);
+  EXPECT_FALSE(propertyNamed("colour"));
+  ComparisonTrial trial = answer(1, 1.25, 2);
+  trial.property = ComparedProperty::friction;
+  EXPECT_EQ(summaryOf(trial), "Right: the second one was rougher, by 25 %.");
 }
 
 }  // namespace

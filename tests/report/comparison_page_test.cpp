@@ -19,7 +19,7 @@ assess::ComparisonTrial answered(int trial, assess::ComparedProperty property, d
   t.said = said;
   t.peak_N = 0.9;
   t.seconds = 14.2;
-  t.grips = {1, 1};
+  t.touches = {1, 1};
   return t;
 }
 
