@@ -4,6 +4,43 @@
 #include <cstdio>
 
 namespace palpa::task_comparison {
+namespace {
+
+constexpr double kShown_N = 0.05;
+
+/// What is drawn at one tool: two parts of a force at its tip; apart, what the device adds at the
+/// handle, and beside it the sum.
+class ToolArrows {
+ public:
+  ToolArrows(const ShownTool& tool, bool apart)
+      : tool_(tool),
+        apart_(apart),
+        device_(tool.X_AD.rotation() * unpack(tool.tool.f_command_D)),
+        shown_(tool.X_AD.rotation() * unpack(tool.tool.f_sensed_D) +
+               (apart ? Vec3::Zero() : device_)) {}
+
+  const Vec3& shown() const { return shown_; }
+
+  void add(const Vec3& reaction, std::vector<scene::ForceArrow>* all) const {
+    const Vec3 at_handle_T(0, 0, -0.11), beside_T(0, 0, -0.06);
+    const auto show = [all](scene::ForceKind kind, const Vec3& p_A, const Vec3& f_A) {
+      if (f_A.norm() > kShown_N) all->push_back({kind, p_A, f_A});
+    };
+    const Vec3 tip = tool_.X_AT.translation();
+    show(scene::ForceKind::reaction, tip, reaction);
+    show(scene::ForceKind::weight, tip, shown_ - reaction);
+    if (!apart_) return;
+    show(scene::ForceKind::device, tool_.X_AT * at_handle_T, device_);
+    show(scene::ForceKind::felt, tool_.X_AT * beside_T, shown_ + device_);
+  }
+
+ private:
+  const ShownTool& tool_;
+  bool apart_;
+  Vec3 device_, shown_;
+};
+
+}  // namespace
 
 Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, bool held) {
   return held ? makePose(Mat3::Identity(), 0.5 * (first_A + second_A) - middle_A)
@@ -11,40 +48,39 @@ Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, 
 }
 
 std::vector<scene::ForceArrow> squeezeForces(const std::array<ShownTool, 2>& tools, bool apart) {
-  constexpr double kShown_N = 0.05;
-  const Vec3 at_handle_T(0, 0, -0.11), beside_T(0, 0, -0.06);
   const Vec3 between = tools[0].X_AT.translation() - tools[1].X_AT.translation();
   if (!(between.norm() > 0)) return {};
   const Vec3 l = between.normalized();
-  std::array<Vec3, 2> device, shown;
-  for (std::size_t t = 0; t < 2; ++t) {
-    const Mat3 R_AD = tools[t].X_AD.rotation();
-    device[t] = R_AD * unpack(tools[t].tool.f_command_D);
-    shown[t] = R_AD * unpack(tools[t].tool.f_sensed_D) + (apart ? Vec3::Zero() : device[t]);
-  }
+  const ToolArrows first(tools[0], apart), second(tools[1], apart);
+  const double F = std::max(0.5 * (first.shown() - second.shown()).dot(l), 0.0);
   std::vector<scene::ForceArrow> all;
-  const auto show = [&all](scene::ForceKind kind, const Vec3& p_A, const Vec3& f_A) {
-    if (f_A.norm() > kShown_N) all.push_back({kind, p_A, f_A});
-  };
-  const double F = std::max(0.5 * (shown[0] - shown[1]).dot(l), 0.0);
-  for (std::size_t t = 0; t < 2; ++t) {
-    const Vec3 squeezing = (t == 0 ? F : -F) * l, tip = tools[t].X_AT.translation();
-    show(scene::ForceKind::reaction, tip, squeezing);
-    show(scene::ForceKind::weight, tip, shown[t] - squeezing);
-    if (!apart) continue;
-    show(scene::ForceKind::device, tools[t].X_AT * at_handle_T, device[t]);
-    show(scene::ForceKind::felt, tools[t].X_AT * beside_T, shown[t] + device[t]);
-  }
+  first.add(F * l, &all);
+  second.add(-F * l, &all);
   return all;
 }
 
+std::vector<scene::ForceArrow> strokeForces(const ShownTool& tool, const Vec3& up_A, bool apart) {
+  const ToolArrows arrows(tool, apart);
+  std::vector<scene::ForceArrow> all;
+  arrows.add(arrows.shown().dot(up_A) * up_A, &all);
+  return all;
+}
+
+std::string questionText(const ComparisonStatus& status) {
+  if (status.things == 2)
+    return std::string("Which one is ") + moreOf(status.property) + "? " +
+           (status.thing == 0 ? "The first" : "The second");
+  const std::string said =
+      status.order.empty() ? std::string() : "; said so far " + assess::orderText(status.order);
+  return "From the smoothest to the roughest: surface " + std::to_string(status.thing + 1) +
+         " of " + std::to_string(status.things) + said;
+}
+
 ComparisonScene::ComparisonScene(const ComparisonSceneSetup& setup, runtime::Bus& bus,
-                           ComparisonChannels& channels)
-    : TrialScene(setup.stage, bus, channels),
-      setup_(setup),
-      channels_(channels),
-      bus_(bus),
-      X_AD2_((setup.X_WD2.inverse() * setup.stage.X_WA).inverse()) {}
+                                 ComparisonChannels& channels)
+    : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels), bus_(bus) {
+  if (setup.X_WD2) X_AD2_ = (setup.X_WD2->inverse() * setup.stage.X_WA).inverse();
+}
 
 const trial::TrialStatus& ComparisonScene::readStatus(std::int64_t now_ns) {
   if (const ComparisonStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
@@ -53,25 +89,34 @@ const trial::TrialStatus& ComparisonScene::readStatus(std::int64_t now_ns) {
 }
 
 void ComparisonScene::compose(scene::SceneState& state, const runtime::ToolState& tool,
-                           const std::string& trouble) {
+                              const std::string& trouble) {
   state.tool = scene::Tool::probe;
   state.skin = scene::SkinStyle::solid;
-  state.second_X_AT = X_AD2_ * unpack(second_.X_DT);
-  state.X_AB = heldPlace(state.X_AT.translation(), state.second_X_AT->translation(),
-                         setup_.middle_A, status_.held);
   state.hud = words(tool, trouble);
+  if (X_AD2_) return showSecond(state, tool);
+  state.forces = strokeForces({tool, X_AD(), state.X_AT}, setup_.up_A, setup_.apart);
+}
+
+void ComparisonScene::showSecond(scene::SceneState& state, const runtime::ToolState& tool) const {
+  state.second_X_AT = *X_AD2_ * unpack(second_.X_DT);
+  state.X_AB = heldPlace(state.X_AT.translation(), state.second_X_AT->translation(),
+                         setup_.middle_A, status_.touching);
   state.forces = squeezeForces(
-      {{{tool, X_AD(), state.X_AT}, {second_, X_AD2_, *state.second_X_AT}}}, setup_.apart);
+      {{{tool, X_AD(), state.X_AT}, {second_, *X_AD2_, *state.second_X_AT}}}, setup_.apart);
 }
 
 void ComparisonScene::addTo(runtime::Displayed& displayed, const runtime::ToolState&) {
-  displayed.second_X_AT = X_AD2_ * unpack(second_.X_DT);
-  displayed.question = status_.property == assess::ComparedProperty::stiffness
-                           ? runtime::Displayed::Question::harder
-                           : runtime::Displayed::Question::heavier;
+  using Question = runtime::Displayed::Question;
+  if (X_AD2_) displayed.second_X_AT = *X_AD2_ * unpack(second_.X_DT);
+  displayed.things = status_.things;
+  displayed.question = status_.things > 2                                        ? Question::order
+                       : status_.property == assess::ComparedProperty::stiffness ? Question::harder
+                       : status_.property == assess::ComparedProperty::weight    ? Question::heavier
+                                                                              : Question::rougher;
 }
 
-scene::Hud ComparisonScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
+scene::Hud ComparisonScene::words(const runtime::ToolState& tool,
+                                  const std::string& trouble) const {
   scene::Hud hud;
   char text[96];
   if (status_.trials > 1 && status_.trial > 0) {
@@ -79,16 +124,17 @@ scene::Hud ComparisonScene::words(const runtime::ToolState& tool, const std::str
     hud.phase = text;
   }
   if (status_.active()) {
-    hud.phase += std::string("Which one is ") + moreOf(status_.property) + "? " +
-                 (status_.thing == 0 ? "The first" : "The second");
-    std::snprintf(text, sizeof text, "%.1f N%s", status_.squeezed_N,
+    hud.phase += questionText(status_);
+    std::snprintf(text, sizeof text, "%.1f N%s", status_.force_N,
                   status_.force_feedback ? "" : " (force feedback off)");
     hud.force = text;
     const int seconds = static_cast<int>(status_.elapsed_s);
     std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
     hud.time = text;
   }
-  trial::noticeOf(status_, trial::worse(tool.safety, second_.safety), "", trouble, &hud);
+  const haptics::SafetyCause safety =
+      X_AD2_ ? trial::worse(tool.safety, second_.safety) : tool.safety;
+  trial::noticeOf(status_, safety, "", trouble, &hud);
   hud.mark = mark();
   return hud;
 }

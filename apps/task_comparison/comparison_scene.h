@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "apps/task_comparison/comparison_task.h"
@@ -11,16 +12,18 @@ namespace palpa::task_comparison {
 /// What a comparison is shown with.
 struct ComparisonSceneSetup {
   trial::TrialScene::Stage stage;
-  Pose X_WD2 = Pose::Identity();  ///< the second device's base
-  Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
-  bool apart = false;             ///< what the devices add is shown apart: a replay
+  std::optional<Pose> X_WD2;     ///< the second device's base, where something is held by two
+  Vec3 middle_A = Vec3::Zero();  ///< of the object at rest, where something is held
+  Vec3 up_A = Vec3(0, -1, 0);    ///< unit, out of the surface that is stroked
+  bool apart = false;            ///< what the devices add is shown apart: a replay
 };
 
-/// What is seen of a comparison: the object, moving with the fingers that hold it, both tools, what
-/// each finger feels.
+/// What is seen of a comparison: the object, moving with the fingers that hold it, or lying under
+/// the tool that strokes over it; each tool, and what is felt there.
 class ComparisonScene final : public trial::TrialScene {
  public:
-  ComparisonScene(const ComparisonSceneSetup& setup, runtime::Bus& bus, ComparisonChannels& channels);
+  ComparisonScene(const ComparisonSceneSetup& setup, runtime::Bus& bus,
+                  ComparisonChannels& channels);
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
@@ -28,11 +31,12 @@ class ComparisonScene final : public trial::TrialScene {
                const std::string& trouble) override;
   void addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
+  void showSecond(scene::SceneState& state, const runtime::ToolState& tool) const;
 
   ComparisonSceneSetup setup_;
   ComparisonChannels& channels_;
   runtime::Bus& bus_;
-  Pose X_AD2_;
+  std::optional<Pose> X_AD2_;
   ComparisonStatus status_;
   runtime::ToolState second_;
 };
@@ -50,7 +54,16 @@ struct ShownTool {
 /// sum that is felt. Weaker ones than 0.05 N are not shown.
 std::vector<scene::ForceArrow> squeezeForces(const std::array<ShownTool, 2>& tools, bool apart);
 
+/// The arrows at a stroking tool in the same way: what presses back along the surface's normal,
+/// and what rubs across it, drawn as the weight is (what is not along the pressing):
+///     reaction (f . up) up,   friction f - (f . up) up
+std::vector<scene::ForceArrow> strokeForces(const ShownTool& tool, const Vec3& up_A, bool apart);
+
 /// Where the object is shown, as moved from where it rests: between the tips that hold it.
 Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, bool held);
+
+/// What the screen asks, and which thing is felt: "Which one is rougher? The second", "From the
+/// smoothest to the roughest: surface 2 of 4; said so far 3, 1".
+std::string questionText(const ComparisonStatus& status);
 
 }  // namespace palpa::task_comparison

@@ -1,7 +1,6 @@
 #include "apps/assess/comparison/comparison_trial.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -14,8 +13,10 @@ namespace palpa::assess {
 
 namespace {
 
-constexpr std::array kProperties{ComparedProperty::stiffness, ComparedProperty::weight,
-                                 ComparedProperty::friction};
+const EnumNames<ComparedProperty>& propertyNames() {
+  static const EnumNames<ComparedProperty> kNames{"stiffness", "weight", "friction"};
+  return kNames;
+}
 
 /// Everyone of n things once.
 bool isOrder(const std::vector<int>& order, std::size_t n) {
@@ -89,15 +90,10 @@ const char* moreOf(ComparedProperty property) {
   return "rougher";
 }
 
-const std::string& nameOf(ComparedProperty property) {
-  static const EnumNames<ComparedProperty> kNames{"stiffness", "weight", "friction"};
-  return kNames.of(property);
-}
+const std::string& nameOf(ComparedProperty property) { return propertyNames().of(property); }
 
 std::optional<ComparedProperty> propertyNamed(std::string_view name) {
-  for (const ComparedProperty property : kProperties)
-    if (name == nameOf(property)) return property;
-  return std::nullopt;
+  return propertyNames().named(name);
 }
 
 std::string orderText(const std::vector<int>& order) {
