@@ -117,6 +117,7 @@ Likeness scoresOf(const record::SessionReader& reader, const std::string& file) 
     case Engine::search:
       return searchScores(reader);
     case Engine::squeeze:
+    case Engine::friction:
       return comparisonScores(reader);
     case Engine::needle:
       break;

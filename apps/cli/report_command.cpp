@@ -234,7 +234,8 @@ void reportCohort(const ReportOptions& o) {
 void addPageArguments(CLI::App& command, ReportOptions& o) {
   addRecordsArgument(command, o.url);
   command.add_option("--task", o.choice.task,
-                     "Only trials of this command: paracentesis, palpation, search, squeeze");
+                     "Only trials of this command: paracentesis, palpation, search, squeeze, "
+                     "friction");
   command
       .add_option("--acceptable", o.rates.acceptable,
                   "Failure rate that is acceptable; the educator's choice, none is established "

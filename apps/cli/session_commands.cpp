@@ -133,6 +133,38 @@ void addSqueeze(CLI::App& program) {
 
 namespace {
 
+constexpr const char* kFrictionExamples = R"(Examples:
+  palpa friction --operator expert --fast --trials 16 --out A
+      a simulated person strokes over two surfaces, one after the other: which is rougher? Open A/report.html
+  palpa friction --sort --operator expert --fast --trials 4 --out B
+      four surfaces, put in order from the smoothest to the roughest
+  palpa friction --operator novice --fast --trials 16 --force-feedback off
+      the same without force feedback: all are the same silicone, and the answers are guesses
+  palpa friction --station my_station.json --trials 16
+      you, on a station with a haptic device and a force sensor
+Stroke over the silicone; lift; D: the next surface lies there, in a circle and as often as you like. Then say which is rougher: 1 or 2. With --sort: their numbers from the smoothest to the roughest.
+Keys: Enter start or continue, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+
+}  // namespace
+
+void addFriction(CLI::App& program) {
+  const auto options = std::make_shared<session::SessionOptions>();
+  options->command = "friction";
+  CLI::App* command = program.add_subcommand(
+      "friction",
+      "A training session: which of two surfaces is rougher? Or several in their order");
+  command->footer(kFrictionExamples);
+  command->add_option("--task", options->task, "Task file (default: the shipped one)")
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
+  command->add_flag("--sort", options->sort,
+                    "Put several surfaces in order, in place of comparing two");
+  addRunArguments(*command, *options);
+  command->callback([options] { session::holdFriction(*options); });
+}
+
+namespace {
+
 constexpr const char* kSearchExamples = R"(Examples:
   palpa search --operator expert --mode all --trials 8 --fast --out A
       a simulated person searches the same floors with full stiffness, with a fifth of it, and with that augmented; open A/report.html

@@ -222,6 +222,7 @@ void writeReportOf(const LeftSession& session, const std::string& made) {
                                                   &evidence::RecordedSearch::again),
           tail, session.evidence);
     case Engine::squeeze:
+    case Engine::friction:
       return writeComparisonResults(
           head,
           endedOnes<task_comparison::CompletedComparison>(evidence::recordedComparisons(session.reader),

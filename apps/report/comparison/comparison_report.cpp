@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "anatomy/base/text_forms.h"
 #include "anatomy/base/whole_file.h"
@@ -28,6 +30,14 @@ svg .threshold.level-2{stroke-dasharray:4 4}
 .answers thead th{font-weight:400;color:var(--muted)}
 .wrong-word{color:var(--bad-ink);font-weight:600}
 )css";
+
+constexpr const char* kShareSource =
+    "Shares of right answers: E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The just noticeable "
+    "difference: D. M. Green, J. A. Swets, Signal Detection Theory and Psychophysics, 1966; its "
+    "interval: S. S. Wilks, Ann. Math. Stat. 9, 1938.";
+constexpr const char* kSortingSource =
+    "How near an order is to the true one: M. G. Kendall, A new measure of rank correlation, "
+    "Biometrika 30, 1938.";
 
 bool countsIn(const assess::ComparisonTrial& trial) {
   return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided;
@@ -67,28 +77,93 @@ void writeProperty(Html& html, const std::vector<assess::ComparisonTrial>& trial
   writeComparisonChart(html, answers, assess::moreOf(property));
 }
 
+bool isFriction(const std::vector<assess::ComparisonTrial>& trials) {
+  return !trials.empty() && trials.front().property == ComparedProperty::friction;
+}
+bool isSorting(const std::vector<assess::ComparisonTrial>& trials) {
+  return !trials.empty() && trials.front().sorting();
+}
+
+std::string numberText(const assess::ComparisonTrial& t) {
+  return std::to_string(t.trial) + (countsIn(t) ? "" : " (not counted)");
+}
+
+void writeHeads(Html& html, const std::vector<const char*>& names) {
+  const auto head = html.in("thead");
+  const auto row = html.in("tr");
+  for (const char* name : names) html.element("th", name);
+}
+
+/// What every trial's row ends with.
+void writeForceAndTime(Html& html, const assess::ComparisonTrial& t, double too_hard_N) {
+  html.element("td", fixed(t.peak_N, 1) + " N" + (t.peak_N > too_hard_N ? ": too hard" : ""));
+  html.element("td", fixed(t.seconds, 0) + " s");
+}
+
 void writeAnswers(Html& html, const ComparisonReport& report) {
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", "Every answer");
   const auto table = html.in("table", {{"class", "answers"}});
-  {
-    const auto head = html.in("thead");
-    const auto row = html.in("tr");
-    for (const char* name :
-         {"Trial", "Answer", "First", "Second", "Held", "Squeezed up to", "Time"})
-      html.element("th", name);
-  }
+  const bool stroked = isFriction(report.trials);
+  writeHeads(html, {"Trial", "Answer", "First", "Second", stroked ? "Touched" : "Held",
+                    stroked ? "Pressed up to" : "Squeezed up to", "Time"});
   const auto body = html.in("tbody");
   for (const assess::ComparisonTrial& t : report.trials) {
     const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});
-    html.element("td", std::to_string(t.trial) + (countsIn(t) ? "" : " (not counted)"));
+    html.element("td", numberText(t));
     html.element("td", {{"class", t.answered() && !t.right() ? "wrong-word" : ""}}, summaryOf(t));
     for (const double factor : t.factors) html.element("td", "x " + trimmed(factor, 2));
     html.element("td",
-                 std::to_string(t.grips[0]) + " and " + std::to_string(t.grips[1]) + " times");
+                 std::to_string(t.touches[0]) + " and " + std::to_string(t.touches[1]) + " times");
+    writeForceAndTime(html, t, report.too_hard_N);
+  }
+}
+
+/// "3 of 4 orders were right; Kendall's tau was 0.92 on average."
+std::string orderSentence(const std::vector<assess::ComparisonTrial>& trials) {
+  int said = 0, right = 0;
+  double sum = 0;
+  for (const assess::ComparisonTrial& trial : trials) {
+    const std::optional<double> tau = trial.tau();
+    if (!tau) continue;
+    ++said;
+    right += trial.right();
+    sum += *tau;
+  }
+  if (said == 0) return "No order was said.";
+  return std::to_string(right) + " of " + std::to_string(said) +
+         (said == 1 ? " order was right" : " orders were right") + "; Kendall's tau was " +
+         fixed(sum / said, 2) +
+         " on average. It is 1 for the true order, 0 by chance, and -1 for the reversed one.";
+}
+
+/// The true order with what each surface had: "2 (x 0.5), 1 (x 1)".
+std::string trueOrderText(const assess::ComparisonTrial& trial) {
+  std::string text;
+  for (const int number : trial.trueOrder())
+    text += (text.empty() ? "" : ", ") + std::to_string(number) + " (x " +
+            trimmed(trial.factors[static_cast<std::size_t>(number - 1)], 2) + ')';
+  return text;
+}
+
+void writeOrders(Html& html, const ComparisonReport& report) {
+  const auto section = html.in("section", {{"class", "card"}});
+  html.element("h2", "From the smoothest to the roughest");
+  html.element("p", orderSentence(thatCount(report.trials)));
+  const auto table = html.in("table", {{"class", "answers"}});
+  writeHeads(html, {"Trial", "Said", "True order", "Tau", "Touched", "Pressed up to", "Time"});
+  const auto body = html.in("tbody");
+  for (const assess::ComparisonTrial& t : report.trials) {
+    const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});
+    const std::optional<double> tau = t.tau();
+    html.element("td", numberText(t));
+    html.element("td", {{"class", tau && !t.right() ? "wrong-word" : ""}},
+                 tau ? assess::orderText(t.order) : summaryOf(t));
+    html.element("td", trueOrderText(t));
+    html.element("td", tau ? fixed(*tau, 2) : "");
     html.element("td",
-                 fixed(t.peak_N, 1) + " N" + (t.peak_N > report.too_hard_N ? ": too hard" : ""));
-    html.element("td", fixed(t.seconds, 0) + " s");
+                 std::to_string(std::accumulate(t.touches.begin(), t.touches.end(), 0)) + " times");
+    writeForceAndTime(html, t, report.too_hard_N);
   }
 }
 
@@ -113,9 +188,13 @@ void writeComparisonPage(Html& html, const ComparisonReport& report) {
       const auto main = html.in("main");
       const std::vector<assess::ComparisonTrial> trials = thatCount(report.trials);
       if (trials.empty()) html.element("p", "No trial counts: none was both scored and finished.");
-      writeProperty(html, trials, ComparedProperty::stiffness);
-      writeProperty(html, trials, ComparedProperty::weight);
-      writeAnswers(html, report);
+      for (const ComparedProperty property :
+           {ComparedProperty::stiffness, ComparedProperty::weight, ComparedProperty::friction})
+        writeProperty(html, trials, property);
+      if (isSorting(report.trials))
+        writeOrders(html, report);
+      else
+        writeAnswers(html, report);
       if (!report.pictures.empty()) {
         const auto section = html.in("section", {{"class", "card"}});
         writePictures(html, report.pictures);
@@ -126,9 +205,7 @@ void writeComparisonPage(Html& html, const ComparisonReport& report) {
     }
     const auto footer = html.in("footer");
     html.element("p", {{"class", "muted"}},
-                 "Shares of right answers: E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The just "
-                 "noticeable difference: D. M. Green, J. A. Swets, Signal Detection Theory and "
-                 "Psychophysics, 1966; its interval: S. S. Wilks, Ann. Math. Stat. 9, 1938.");
+                 isSorting(report.trials) ? kSortingSource : kShareSource);
     writeMadeBy(html, {&report.station, &report.notes});
   }
   html.passOn();
@@ -191,19 +268,53 @@ void writeComparisonChart(Html& html, const assess::Discrimination& answers, con
                                  "reach below the dotted line, it may have been chance.");
 }
 
-void writeComparisonCsv(const std::string& user_id, const std::vector<assess::ComparisonTrial>& trials,
-                     const std::filesystem::path& file) {
-  std::string csv =
-      "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_S,"
-      "GRIPS_FIRST,GRIPS_SECOND\n";
-  for (const assess::ComparisonTrial& t : trials) {
+namespace {
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : " ") + part;
+  return text;
+}
+template <class Values, class Text>
+std::string listOf(const Values& values, Text text) {
+  std::vector<std::string> parts;
+  for (const auto& value : values) parts.push_back(text(value));
+  return joined(parts);
+}
+
+/// FACTORS,ORDER,TRUE_ORDER,RIGHT,TAU,PEAK_N,TIME_S,TOUCHES
+std::string orderColumns(const assess::ComparisonTrial& t) {
+  const auto number = [](int n) { return std::to_string(n); };
+  const std::optional<double> tau = t.tau();
+  return listOf(t.factors, shortest) + ',' + listOf(t.order, number) + ',' +
+         listOf(t.trueOrder(), number) + (t.right() ? ",1," : ",0,") +
+         (tau ? shortest(*tau) : std::string()) + ',' + shortest(t.peak_N) + ',' +
+         shortest(t.seconds) + ',' + listOf(t.touches, number);
+}
+
+/// FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_S and how often each was touched
+std::string answerColumns(const assess::ComparisonTrial& t) {
+  return shortest(t.factors[0]) + ',' + shortest(t.factors[1]) + ',' + std::to_string(t.said) +
+         (t.right() ? ",1," : ",0,") + shortest(t.peak_N) + ',' + shortest(t.seconds) + ',' +
+         std::to_string(t.touches[0]) + ',' + std::to_string(t.touches[1]);
+}
+
+}  // namespace
+
+void writeComparisonCsv(const std::string& user_id,
+                        const std::vector<assess::ComparisonTrial>& trials,
+                        const std::filesystem::path& file) {
+  const bool sorting = isSorting(trials);
+  std::string csv = "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,";
+  csv += sorting ? "FACTORS,ORDER,TRUE_ORDER,RIGHT,TAU,PEAK_N,TIME_S,TOUCHES\n"
+         : isFriction(trials)
+             ? "FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_S,TOUCHES_FIRST,TOUCHES_SECOND\n"
+             : "FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_S,GRIPS_FIRST,GRIPS_SECOND\n";
+  for (const assess::ComparisonTrial& t : thatCount(trials)) {
     csv += csvField(user_id) + ',' + std::to_string(t.trial) + ',' + std::to_string(t.seed) +
            (t.simulated ? ",1" : ",0") + (t.force_feedback ? ",1," : ",0,") +
-           csvField(training::nameOf(t.outcome));
-    csv += t.property == assess::ComparedProperty::stiffness ? ",stiffness," : ",weight,";
-    csv += shortest(t.factors[0]) + ',' + shortest(t.factors[1]) + ',' + std::to_string(t.said) +
-           (t.right() ? ",1," : ",0,") + shortest(t.peak_N) + ',' + shortest(t.seconds) + ',' +
-           std::to_string(t.grips[0]) + ',' + std::to_string(t.grips[1]) + '\n';
+           csvField(training::nameOf(t.outcome)) + ',' + assess::nameOf(t.property) + ',' +
+           (sorting ? orderColumns(t) : answerColumns(t)) + '\n';
   }
   writeWhole(file, csv);
 }
