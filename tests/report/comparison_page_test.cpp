@@ -9,7 +9,7 @@ namespace palpa::report {
 namespace {
 
 assess::ComparisonTrial answered(int trial, assess::ComparedProperty property, double second,
-                              int said) {
+                                 int said) {
   assess::ComparisonTrial t;
   t.trial = trial;
   t.role = training::Role::scored;
@@ -41,7 +41,8 @@ ComparisonReport someAnswers() {
 }
 
 std::string pageOf(const ComparisonReport& report) {
-  const std::filesystem::path file = palpa::test::freshFolder("report", "squeeze") / "report.html";
+  const std::filesystem::path file =
+      palpa::test::freshFolder("report", "comparison") / "report.html";
   writeComparisonReport(report, file);
   std::string page = palpa::test::slurp(file);
   EXPECT_EQ(test::faultOf(page), "");
@@ -85,11 +86,56 @@ TEST(ComparisonPage, SimulatedIsSaidOnTopAndVoidIsNotCounted) {
 
 TEST(ComparisonCsv, ARowATrial) {
   const std::filesystem::path file =
-      palpa::test::freshFolder("report", "squeeze_csv") / "trials.csv";
+      palpa::test::freshFolder("report", "comparison_csv") / "trials.csv";
   writeComparisonCsv("T,7", {answered(3, assess::ComparedProperty::weight, 1.43, 2)}, file);
   EXPECT_EQ(palpa::test::slurp(file),
             "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_"
             "S,GRIPS_FIRST,GRIPS_SECOND\n\"T,7\",3,0,0,1,done,weight,1,1.43,2,1,0.9,14.2,1,1\n");
+}
+
+assess::ComparisonTrial ordered(int trial, std::vector<int> order) {
+  assess::ComparisonTrial t = answered(trial, assess::ComparedProperty::friction, 2, 0);
+  t.factors = {1, 0.5, 2.8, 1.4};
+  t.touches = {1, 1, 2, 1};
+  t.order = std::move(order);
+  return t;
+}
+
+TEST(ComparisonPage, OrdersStandBesideTheTrueOnes) {
+  ComparisonReport report = someAnswers();
+  report.trials = {ordered(1, {2, 1, 4, 3}), ordered(2, {1, 2, 4, 3}), ordered(3, {})};
+  report.trials[2].outcome = training::Outcome::time;
+  const std::string page = pageOf(report);
+  for (const char* words :
+       {"1 of 2 orders were right; Kendall&#39;s tau was 0.83 on average",
+        "2 (x 0.5), 1 (x 1), 4 (x 1.4), 3 (x 2.8)", "1, 2, 4, 3", "0.67", "5 times",
+        "The time was over before something was said.", "M. G. Kendall"})
+    EXPECT_TRUE(saysPage(page, words)) << words;
+  EXPECT_FALSE(saysPage(page, "Every answer"));
+}
+
+TEST(ComparisonPage, FrictionIsStrokedAndNotHeld) {
+  ComparisonReport report = someAnswers();
+  report.trials = {answered(1, assess::ComparedProperty::friction, 1.4, 2)};
+  const std::string page = pageOf(report);
+  for (const char* words : {"Which one is rougher?", "Touched", "Pressed up to",
+                            "Right: the second one was rougher, by 40 %."})
+    EXPECT_TRUE(saysPage(page, words)) << words;
+  EXPECT_FALSE(saysPage(page, "Squeezed up to"));
+}
+
+TEST(ComparisonCsv, OrdersAreLists) {
+  const std::filesystem::path file = palpa::test::freshFolder("report", "order_csv") / "trials.csv";
+  assess::ComparisonTrial voided = ordered(2, {});
+  voided.outcome = training::Outcome::voided;
+  assess::ComparisonTrial late = ordered(3, {2});
+  late.outcome = training::Outcome::time;
+  writeComparisonCsv("T7", {ordered(1, {2, 1, 4, 3}), voided, late}, file);
+  EXPECT_EQ(palpa::test::slurp(file),
+            "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,FACTORS,ORDER,TRUE_ORDER,RIGHT,TAU,"
+            "PEAK_N,TIME_S,TOUCHES\n"
+            "T7,1,0,0,1,done,friction,1 0.5 2.8 1.4,2 1 4 3,2 1 4 3,1,1,0.9,14.2,1 1 2 1\n"
+            "T7,3,0,0,1,time,friction,1 0.5 2.8 1.4,2,2 1 4 3,0,,0.9,14.2,1 1 2 1\n");
 }
 
 }  // namespace
