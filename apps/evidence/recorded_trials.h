@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "apps/record/session_file.h"
+#include "apps/task_comparison/comparison_task.h"
 #include "apps/task_palpation/palpation_task.h"
 #include "apps/task_search/search_task.h"
-#include "apps/task_comparison/comparison_task.h"
 #include "apps/training/engine.h"
 
 namespace palpa::evidence {

@@ -13,12 +13,12 @@
 #include "apps/evidence/recorded_trials.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
+#include "apps/session/comparison_session.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_facts.h"
 #include "apps/session/session_records.h"
-#include "apps/session/comparison_session.h"
 
 namespace palpa::session {
 namespace {
@@ -225,8 +225,8 @@ void writeReportOf(const LeftSession& session, const std::string& made) {
     case Engine::friction:
       return writeComparisonResults(
           head,
-          endedOnes<task_comparison::CompletedComparison>(evidence::recordedComparisons(session.reader),
-                                                    &evidence::RecordedComparison::again),
+          endedOnes<task_comparison::CompletedComparison>(
+              evidence::recordedComparisons(session.reader), &evidence::RecordedComparison::again),
           tail, session.evidence);
   }
 }
