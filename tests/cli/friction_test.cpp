@@ -109,11 +109,11 @@ TEST(Friction, TheExportHoldsTheFrictionThatWasAskedForAndFelt) {
   std::map<double, std::pair<double, double>> rubbed;  // by factor: tangential, normal, N
   for (const Row& row : rowsOf(contentOf(here / "ticks.csv"))) {
     const auto number = [&](const std::string& name) { return std::stod(row.at(name)); };
-    const double f_n = number("f_sensed_D_z_N");
+    const double f_n = number("f_sensed_D_y_N");  // up, on the palpation bench
     if (row.at("armed") == "0" || f_n < 0.3) continue;
     auto& [along, normal] = rubbed[number("friction")];
     along += std::hypot(number("f_sensed_D_x_N") + number("f_command_D_x_N"),
-                        number("f_sensed_D_y_N") + number("f_command_D_y_N"));
+                        number("f_sensed_D_z_N") + number("f_command_D_z_N"));
     normal += f_n;
   }
   ASSERT_EQ(rubbed.size(), 4u);
