@@ -133,6 +133,11 @@ void addSqueeze(CLI::App& program) {
 
 namespace {
 
+void addSortArgument(CLI::App& command, session::SessionOptions& options) {
+  command.add_flag("--sort", options.sort,
+                   "Friction: put several surfaces in order, in place of comparing two");
+}
+
 constexpr const char* kFrictionExamples = R"(Examples:
   palpa friction --operator expert --fast --trials 16 --out A
       a simulated person strokes over two surfaces, one after the other: which is rougher? Open A/report.html
@@ -157,8 +162,7 @@ void addFriction(CLI::App& program) {
   command->add_option("--task", options->task, "Task file (default: the shipped one)")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
-  command->add_flag("--sort", options->sort,
-                    "Put several surfaces in order, in place of comparing two");
+  addSortArgument(*command, *options);
   addRunArguments(*command, *options);
   command->callback([options] { session::holdFriction(*options); });
 }
@@ -209,6 +213,7 @@ void refuseNeedleOptions(const CLI::App& given, Engine engine) {
   session::SessionOptions unused;
   addRunArguments(known, unused);
   if (engine == Engine::palpation) addAugmentArgument(known, unused);
+  if (engine == Engine::friction) addSortArgument(known, unused);
   for (const CLI::Option* option : given.get_options()) {
     const std::string name = option->get_name();
     if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name))
@@ -232,10 +237,14 @@ void addTrain(CLI::App& program) {
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
   addSessionArguments(*command, *options);
+  addSortArgument(*command, *options);
   command->callback([options, command] {
     options->command = "train";
     const Engine engine = training::engineIn(JsonFile(options->task));
     if (engine != Engine::needle) refuseNeedleOptions(*command, engine);
+    if (options->sort && engine != Engine::friction)
+      throw UsageError("has no meaning for this task", "--sort",
+                       "Leave it out; only a friction task has surfaces to put in order");
     session::holdSession(engine, *options);
   });
 }

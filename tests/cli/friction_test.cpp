@@ -156,6 +156,12 @@ TEST(Friction, WrongUsageIsNamed) {
                here);
   EXPECT_EQ(station.exit_code, 2);
   EXPECT_TRUE(says(station.err, "sample")) << station.err;
+  const Outcome other = palpa(
+      quickly({"train", "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/squeeze.json",
+               "--operator", "expert", "--sort", "--out", "C"}),
+      here.path());
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(says(other.err, "--sort")) << other.err;
   const Outcome squeeze = friction({"--operator", "expert", "--task",
                                     std::string(PALPA_SOURCE_DIR) + "/assets/tasks/squeeze.json"},
                                    here);
