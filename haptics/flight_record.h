@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -63,6 +64,9 @@ struct TickCommands {
     one.fill(1);
     return one;
   }();
+  /// Of the surface under a tool: how many times as rough as it is, in this trial. Here, because
+  /// the lumps begin at a multiple of 8 bytes: nothing in between is left unsaid.
+  float friction = 1;
   PlacedLumps lumps{};  ///< in P, of this trial
   float squeeze_stiffness = 1,
         /// Of what is held between two tools: how many times as hard and as heavy as it is, in this
@@ -76,6 +80,7 @@ struct TickCommands {
   Packed3 line_p_D{}, line_a_D{};  ///< m; unit: a line for virtual fixtures; direction 0: none
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);
+static_assert(offsetof(TickCommands, lumps) == offsetof(TickCommands, friction) + sizeof(float));
 
 /// What a force sensor says of a real object that the tool touches, cleared of tool, bias and
 /// noise.

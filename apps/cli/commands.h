@@ -19,6 +19,7 @@ int runCommand(std::vector<std::string> words);
 void addParacentesis(CLI::App& program);
 void addPalpation(CLI::App& program);
 void addSqueeze(CLI::App& program);
+void addFriction(CLI::App& program);
 void addSearch(CLI::App& program);
 void addTrain(CLI::App& program);  ///< any of them, by the task file
 void addReplay(CLI::App& program);

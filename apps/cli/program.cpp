@@ -49,6 +49,7 @@ void addCommands(CLI::App& program) {
   addParacentesis(program);
   addPalpation(program);
   addSqueeze(program);
+  addFriction(program);
   addSearch(program);
   addTrain(program);
   addReplay(program);

@@ -98,9 +98,9 @@ Likeness palpationScores(const record::SessionReader& reader) {
   });
 }
 
-Likeness squeezeScores(const record::SessionReader& reader) {
-  return scoresAgain("Trial", evidence::recordedSqueezes(reader), [](const auto& trial) {
-    return std::pair(summaryOf(trial.again), task_squeeze::scoreJson(trial.again));
+Likeness comparisonScores(const record::SessionReader& reader) {
+  return scoresAgain("Trial", evidence::recordedComparisons(reader), [](const auto& trial) {
+    return std::pair(summaryOf(trial.again), task_comparison::scoreJson(trial.again));
   });
 }
 
@@ -117,7 +117,8 @@ Likeness scoresOf(const record::SessionReader& reader, const std::string& file) 
     case Engine::search:
       return searchScores(reader);
     case Engine::squeeze:
-      return squeezeScores(reader);
+    case Engine::friction:
+      return comparisonScores(reader);
     case Engine::needle:
       break;
   }

@@ -13,8 +13,7 @@
 #include "apps/evidence/rating_forms.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/report/needle/session_report.h"
-#include "apps/report/practice/cohort_report.h"
-#include "apps/report/practice/trainee_report.h"
+#include "apps/report/practice/practice_reports.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/session_facts.h"
@@ -235,7 +234,8 @@ void reportCohort(const ReportOptions& o) {
 void addPageArguments(CLI::App& command, ReportOptions& o) {
   addRecordsArgument(command, o.url);
   command.add_option("--task", o.choice.task,
-                     "Only trials of this command: paracentesis, palpation, search, squeeze");
+                     "Only trials of this command: paracentesis, palpation, search, squeeze, "
+                     "friction");
   command
       .add_option("--acceptable", o.rates.acceptable,
                   "Failure rate that is acceptable; the educator's choice, none is established "

@@ -133,6 +133,42 @@ void addSqueeze(CLI::App& program) {
 
 namespace {
 
+void addSortArgument(CLI::App& command, session::SessionOptions& options) {
+  command.add_flag("--sort", options.sort,
+                   "Friction: put several surfaces in order, in place of comparing two");
+}
+
+constexpr const char* kFrictionExamples = R"(Examples:
+  palpa friction --operator expert --fast --trials 16 --out A
+      a simulated person strokes over two surfaces, one after the other: which is rougher? Open A/report.html
+  palpa friction --sort --operator expert --fast --trials 4 --out B
+      four surfaces, put in order from the smoothest to the roughest
+  palpa friction --operator novice --fast --trials 16 --force-feedback off
+      the same without force feedback: all are the same silicone, and the answers are guesses
+  palpa friction --station my_station.json --trials 16
+      you, on a station with a haptic device and a force sensor
+Stroke over the silicone; lift; D: the next surface lies there, in a circle and as often as you like. Then say which is rougher: 1 or 2. With --sort: their numbers from the smoothest to the roughest.
+Keys: Enter start or continue, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+
+}  // namespace
+
+void addFriction(CLI::App& program) {
+  const auto options = std::make_shared<session::SessionOptions>();
+  options->command = "friction";
+  CLI::App* command = program.add_subcommand(
+      "friction",
+      "A training session: which of two surfaces is rougher? Or several in their order");
+  command->footer(kFrictionExamples);
+  command->add_option("--task", options->task, "Task file (default: the shipped one)")
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
+  addSortArgument(*command, *options);
+  addRunArguments(*command, *options);
+  command->callback([options] { session::holdFriction(*options); });
+}
+
+namespace {
+
 constexpr const char* kSearchExamples = R"(Examples:
   palpa search --operator expert --mode all --trials 8 --fast --out A
       a simulated person searches the same floors with full stiffness, with a fifth of it, and with that augmented; open A/report.html
@@ -177,6 +213,7 @@ void refuseNeedleOptions(const CLI::App& given, Engine engine) {
   session::SessionOptions unused;
   addRunArguments(known, unused);
   if (engine == Engine::palpation) addAugmentArgument(known, unused);
+  if (engine == Engine::friction) addSortArgument(known, unused);
   for (const CLI::Option* option : given.get_options()) {
     const std::string name = option->get_name();
     if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name))
@@ -200,10 +237,14 @@ void addTrain(CLI::App& program) {
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
   addSessionArguments(*command, *options);
+  addSortArgument(*command, *options);
   command->callback([options, command] {
     options->command = "train";
     const Engine engine = training::engineIn(JsonFile(options->task));
     if (engine != Engine::needle) refuseNeedleOptions(*command, engine);
+    if (options->sort && engine != Engine::friction)
+      throw UsageError("has no meaning for this task", "--sort",
+                       "Leave it out; only a friction task has surfaces to put in order");
     session::holdSession(engine, *options);
   });
 }

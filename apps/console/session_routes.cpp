@@ -67,6 +67,7 @@ SessionWish readWish(const nlohmann::json& asked) {
   requireOneOf(wish.side, "side", {"right", "left"});
   wish.assess = flagIn(asked, "assess", false);
   wish.force_feedback = flagIn(asked, "force_feedback", true);
+  wish.sort = flagIn(asked, "sort", false);
   wish.trials = static_cast<int>(numberIn(asked, "trials", 1, 1, 50));
   wish.seed = numberIn(asked, "seed", 1, 0, kMostSeed);
   wish.patient_seed = numberIn(asked, "patient_seed", 0, 0, kMostSeed);
@@ -99,6 +100,8 @@ constexpr EngineOptions kKinds[] = {
     {Engine::squeeze, "Compare two things between two fingers: which is harder, which is heavier?",
      false, false},
     {Engine::search, "Find the rough one of three hidden discs by feel.", false, false},
+    {Engine::friction, "Stroke over one surface, then over another: which is rougher?", false,
+     false},
 };
 
 const EngineOptions& kindOf(Engine engine) {
@@ -126,6 +129,7 @@ json described(const Task& task) {
   const EngineOptions& kind = kindOf(task.engine);
   json options = json::array({"force_feedback"});
   if (kind.side) options.insert(options.end(), {"side", "patient_seed"});
+  if (task.engine == Engine::friction) options.push_back("sort");
   return {{"id", task.id},
           {"title", task.title},
           {"engine", training::nameOf(task.engine)},
@@ -159,6 +163,7 @@ std::vector<std::string> argumentsOf(const Console& c, const SessionWish& wish) 
   if (!wish.trainee.empty())
     a.insert(a.end(), {"--trainee", wish.trainee, "--records", c.place.records});
   if (wish.assess) a.push_back("--assess");
+  if (wish.sort && task->engine == Engine::friction) a.push_back("--sort");
   if (kindOf(task->engine).side) a.insert(a.end(), {"--side", wish.side});
   if (kindOf(task->engine).side && wish.patient_seed > 0)
     a.insert(a.end(), {"--patient-seed", std::to_string(wish.patient_seed)});

@@ -11,11 +11,11 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
+#include "apps/assess/comparison/comparison_trial.h"
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/needle_metrics.h"
 #include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/assess/search/search_trial.h"
-#include "apps/assess/squeeze/squeeze_trial.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/record/store/delivery.h"
@@ -61,8 +61,10 @@ Figures figuresIn(const record::SessionReader& reader, const std::filesystem::pa
       return figuresOf(recordedSearches(reader),
                        [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
     case Engine::squeeze:
-      return figuresOf(recordedSqueezes(reader),
-                       [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
+    case Engine::friction:
+      return figuresOf(recordedComparisons(reader), [](const RecordedComparison& t) {
+        return assess::comparisonMetrics(t.again);
+      });
     case Engine::needle:
       break;
   }

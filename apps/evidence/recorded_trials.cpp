@@ -229,43 +229,48 @@ std::function<const haptics::Floor*(std::uint32_t number)> recordedFloors(
 namespace {
 
 /// What the record says of a trial besides its ticks.
-struct SaidOfSqueeze {
-  task_squeeze::SqueezeComparison comparison;
-  int answer = 0;
+struct SaidOfComparison {
+  task_comparison::Comparison comparison;
+  task_comparison::Answer answer;
 };
 
-SaidOfSqueeze saidOf(const std::vector<runtime::Event>& events, int trial) {
-  SaidOfSqueeze said;
+SaidOfComparison saidOf(const std::vector<runtime::Event>& events, int trial) {
+  SaidOfComparison said;
   for (const runtime::Event& event : events) {
     if (event.trial != trial) continue;
-    if (event.is(EventKind::trial_case)) said.comparison = task_squeeze::comparisonIn(event.text);
-    if (event.is(EventKind::answer)) said.answer = event.value == 1 ? 1 : event.value == 2 ? 2 : 0;
+    if (event.is(EventKind::trial_case))
+      said.comparison = task_comparison::comparisonIn(event.text);
+    if (event.is(EventKind::answer))
+      said.answer.add(event.value, said.comparison.factors.size() > 2);
   }
   return said;
 }
 
 }  // namespace
 
-std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reader) {
+std::vector<RecordedComparison> recordedComparisons(const record::SessionReader& reader) {
   const JsonFile task = JsonFile::ofText(reader.info().task_json, "the recorded task");
-  task_squeeze::SqueezeListener listener(task.number("force/touch_N", 0.02, 5));
+  const bool simulated = fieldOf(reader.info().session_json, "simulated", true, "its session");
+  task_comparison::ComparisonListener listener(task.number("force/touch_N", 0.02, 5),
+                                               task_comparison::toolsFor(engineOf(reader)));
   const std::vector<runtime::Event> events = reader.events();
-  std::vector<RecordedSqueeze> trials;
-  SaidOfSqueeze said;
+  std::vector<RecordedComparison> trials;
+  SaidOfComparison said;
   const auto begin = [&](const record::RecordedTrial& trial) {
     said = saidOf(events, trial.header.trial);
     listener.begin(static_cast<std::uint32_t>(trial.header.trial), said.comparison);
   };
   const auto tick = [&](const haptics::FlightRecord& record) { listener.add(record); };
   const auto finish = [&](const record::RecordedTrial& trial) {
-    assess::SqueezeTrial facts;
+    assess::ComparisonTrial facts;
     facts.trial = trial.header.trial;
     facts.role = training::roleNamed(trial.header.role);
-    facts.simulated = true;
+    facts.simulated = simulated;
     facts.force_feedback = trial.header.force_feedback;
     facts.seed = trial.header.seed;
     facts.outcome = training::outcomeNamed(trial.end.outcome);
-    trials.push_back({trial, task_squeeze::judged(facts, said.comparison, listener, said.answer)});
+    trials.push_back(
+        {trial, task_comparison::judged(facts, said.comparison, listener, said.answer)});
   };
   record::walkTrials(reader, reader.trials(), {begin, tick, finish});
   return trials;

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "apps/record/session_file.h"
+#include "apps/task_comparison/comparison_task.h"
 #include "apps/task_palpation/palpation_task.h"
 #include "apps/task_search/search_task.h"
-#include "apps/task_squeeze/squeeze_task.h"
 #include "apps/training/engine.h"
 
 namespace palpa::evidence {
@@ -43,12 +43,12 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
 std::function<const haptics::Floor*(std::uint32_t number)> recordedFloors(
     const record::SessionReader& reader);
 
-struct RecordedSqueeze {
+struct RecordedComparison {
   record::RecordedTrial recorded;
-  assess::SqueezeTrial again;  ///< from the ticks and what was said
+  assess::ComparisonTrial again;  ///< from the ticks and what was said
 };
 /// Every trial of a comparison session judged again, from the evidence alone. Throws Error for a
 /// record whose parts contradict each other.
-std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reader);
+std::vector<RecordedComparison> recordedComparisons(const record::SessionReader& reader);
 
 }  // namespace palpa::evidence

@@ -170,29 +170,48 @@ class SearchShow final : public TouchShow<replay::ShownSearch> {
   }
 };
 
-class SqueezeShow final : public TouchShow<replay::ShownSqueeze> {
+/// Something held by two tools, or stroked by one.
+class ComparisonShow final : public TouchShow<replay::ShownComparison> {
  public:
-  SqueezeShow(const std::filesystem::path& file, int number) : TouchShow(file, number) {
-    if (!reader_.info().pair_config)
-      throw Error("describes one device where two are needed", file_,
-                  "Restore the file from a backup");
-    const auto& tools = reader_.info().pair_config->tools;
+  ComparisonShow(const std::filesystem::path& file, int number, Engine engine)
+      : TouchShow(file, number) {
     const JsonFile json = task();
-    const double half = 1e-3 * json.number("object/half_mm", 10, 100);
-    trial_.X_AD = anatomy::X_AP() * unpack(tools[0].X_DP).inverse();
-    trial_.X_AD2 = anatomy::X_AP() * unpack(tools[1].X_DP).inverse();
-    trial_.middle_A = anatomy::X_AP() * Vec3(0, 0, -half);
-    trial_.comparison = task_squeeze::comparisonIn(eventText(EventKind::trial_case));
-    shown_ = anatomy::phantomBlock(Vec3::Constant(2 * half), "object");
-    replay::SqueezeReader reader(json.number("force/touch_N", 0.02, 5),
-                                 {unpack(tools[0].X_ET), unpack(tools[1].X_ET)}, trial_.comparison,
-                                 trial_.number);
+    std::vector<Pose> X_ET{unpack(config().X_ET)};
+    trial_.X_AD = anatomy::X_AP() * unpack(config().X_DP).inverse();
+    trial_.up_A = anatomy::X_AP().linear() * Vec3::UnitZ();
+    trial_.comparison = task_comparison::comparisonIn(eventText(EventKind::trial_case));
+    if (engine == Engine::squeeze) {
+      X_ET.push_back(secondTool());
+      showHeld(1e-3 * json.number("object/half_mm", 10, 100));
+    } else {
+      shown_ = anatomy::phantomBlock(1e-3 * Vec3(json.number("phantom/across_mm", 10, 500),
+                                                 json.number("phantom/away_mm", 10, 500),
+                                                 json.number("phantom/high_mm", 5, 300)),
+                                     "phantom");
+    }
+    replay::ComparisonReader reader(json.number("force/touch_N", 0.02, 5), X_ET, trial_.comparison,
+                                    trial_.number);
     receive(reader, [&] { return lastOf(reader.moments()); });
     trial_.moments = reader.moments();
     need(!trial_.moments.empty());
   }
   std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) override {
-    return replay::squeezeReplay(trial_, view);
+    return replay::comparisonReplay(trial_, view);
+  }
+
+ private:
+  /// X_ET of the second tool; its base into the trial.
+  Pose secondTool() {
+    if (!reader_.info().pair_config)
+      throw Error("describes one device where two are needed", file_,
+                  "Restore the file from a backup");
+    const haptics::TickConfig& tool = reader_.info().pair_config->tools[1];
+    trial_.X_AD2 = anatomy::X_AP() * unpack(tool.X_DP).inverse();
+    return unpack(tool.X_ET);
+  }
+  void showHeld(double half) {
+    trial_.middle_A = anatomy::X_AP() * Vec3(0, 0, -half);
+    shown_ = anatomy::phantomBlock(Vec3::Constant(2 * half), "object");
   }
 };
 
@@ -202,7 +221,7 @@ std::unique_ptr<RecordedShow> recordedTouch(const std::filesystem::path& file, E
                                             int number) {
   if (engine == Engine::palpation) return std::make_unique<PalpationShow>(file, number);
   if (engine == Engine::search) return std::make_unique<SearchShow>(file, number);
-  return std::make_unique<SqueezeShow>(file, number);
+  return std::make_unique<ComparisonShow>(file, number, engine);
 }
 
 }  // namespace palpa::evidence

@@ -62,7 +62,8 @@ std::string lawsJson(const SessionReader& reader) {
   const std::optional<haptics::PairConfig>& pair = reader.info().pair_config;
   json laws{{"about",
              "What is added to a real thing, frame P of which the lumps' places are; SI units. "
-             "H, H_T, G: f = x^m max(k + b x', k / 10). Equations: Jeon, Choi and Harders, Haptic "
+             "H, H_T, G: f = x^m max(k + b x', k / 10). mu and B of wanted_friction: times the "
+             "ticks' friction. Equations: Jeon, Choi and Harders, Haptic "
              "augmented reality (2015), 10.4 to 10.21"},
             {"period_s", 1e-9 * static_cast<double>(config.period_ns)},
             {"tip_radius_m", config.touch.tip_radius},

@@ -165,6 +165,9 @@ void addCommands(std::vector<ExportColumn>& columns) {
       {{"squeeze_weight", "times as heavy as what is held is"}, [](const FlightRecord& r) {
          return shortest(static_cast<double>(r.commands.squeeze_weight));
        }});
+  columns.push_back(
+      {{"friction", "times as rough as the touched surface is; 1 where friction is not changed"},
+       [](const FlightRecord& r) { return shortest(static_cast<double>(r.commands.friction)); }});
   columns.push_back({{"floor", "number of the floor that is searched; 0: none"},
                      [](const FlightRecord& r) { return std::to_string(r.commands.floor); }});
   columns.push_back({{"degraded", "1: the floor with the lesser gains"},

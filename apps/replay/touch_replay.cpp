@@ -1,9 +1,9 @@
 #include "apps/replay/touch_replay.h"
 
 #include "anatomy/parametric/phantoms.h"
+#include "apps/task_comparison/comparison_scene.h"
 #include "apps/task_palpation/palpation_scene.h"
 #include "apps/task_search/search_scene.h"
-#include "apps/task_squeeze/squeeze_scene.h"
 
 namespace palpa::replay {
 namespace {
@@ -144,60 +144,63 @@ std::unique_ptr<TrialReplay> searchReplay(const ShownSearch& trial, scene::Scene
 
 namespace {
 
-class SqueezeReplay final : public TrialReplay {
+class ComparisonReplay final : public TrialReplay {
  public:
-  SqueezeReplay(const ShownSqueeze& trial, scene::SceneView& view)
+  ComparisonReplay(const ShownComparison& trial, scene::SceneView& view)
       : TrialReplay(trial, trial.length_s()),
         recorded_(trial),
-        scene_({stage(view), trial.X_AD2, trial.middle_A, true}, bus_, channels_) {}
+        scene_({stage(view), trial.X_AD2, trial.middle_A, trial.up_A, true}, bus_, channels_) {}
 
  private:
   void showAt(double t_s, std::int64_t now_ns) override {
-    const SqueezeMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
-    task_squeeze::SqueezeStatus status;
+    const ComparisonMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
+    task_comparison::ComparisonStatus status;
     fill(status, t_s);
     status.property = recorded_.comparison.property;
     status.thing = moment.thing;
-    status.squeezed_N = moment.squeezed_N;
-    status.held = moment.held;
+    status.things = static_cast<int>(recorded_.comparison.factors.size());
+    status.force_N = moment.force_N;
+    status.touching = moment.touching;
     bus_.haptic_to_scene.publish(moment.tools[0], now_ns);
-    bus_.second_to_scene.publish(moment.tools[1], now_ns);
+    if (recorded_.X_AD2) bus_.second_to_scene.publish(moment.tools[1], now_ns);
     channels_.status_to_scene.publish(status, now_ns);
   }
 
   trial::TrialScene& scene() override { return scene_; }
 
-  const ShownSqueeze& recorded_;
-  task_squeeze::SqueezeChannels channels_{runtime::TimeMode::virtual_time};
-  task_squeeze::SqueezeScene scene_;
+  const ShownComparison& recorded_;
+  task_comparison::ComparisonChannels channels_{runtime::TimeMode::virtual_time};
+  task_comparison::ComparisonScene scene_;
 };
 
 }  // namespace
 
-SqueezeReader::SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET,
-                             const task_squeeze::SqueezeComparison& comparison, int trial)
-    : X_ET_(X_ET), listener_(touch_N), trial_(static_cast<std::uint32_t>(trial)) {
+ComparisonReader::ComparisonReader(double touch_N, const std::vector<Pose>& X_ET,
+                                   const task_comparison::Comparison& comparison, int trial)
+    : X_ET_(X_ET),
+      listener_(touch_N, static_cast<int>(X_ET.size())),
+      trial_(static_cast<std::uint32_t>(trial)) {
   listener_.begin(trial_, comparison);
 }
 
-void SqueezeReader::add(const haptics::FlightRecord& record) {
+void ComparisonReader::add(const haptics::FlightRecord& record) {
   if (record.commands.trial != trial_ || !record.commands.armed) return;
   listener_.add(record);
-  if (record.tool == 0) {
-    first_ = toolIn(record, X_ET_[0]);
-    return;
-  }
+  const bool two = X_ET_.size() == 2;
+  if (record.tool == 0) first_ = toolIn(record, X_ET_[0]);
+  if (two && record.tool == 0) return;
   const double t_s = listener_.seconds();
   if (!moments_.empty() && t_s - moments_.back().t_s < kMomentStep - 1e-9) return;
   moments_.push_back({t_s,
-                      {first_, toolIn(record, X_ET_[1])},
+                      {first_, two ? toolIn(record, X_ET_[1]) : runtime::ToolState{}},
                       listener_.thing(record.commands),
                       listener_.now_N(),
-                      listener_.held()});
+                      listener_.touching()});
 }
 
-std::unique_ptr<TrialReplay> squeezeReplay(const ShownSqueeze& trial, scene::SceneView& view) {
-  return std::make_unique<SqueezeReplay>(trial, view);
+std::unique_ptr<TrialReplay> comparisonReplay(const ShownComparison& trial,
+                                              scene::SceneView& view) {
+  return std::make_unique<ComparisonReplay>(trial, view);
 }
 
 }  // namespace palpa::replay

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "apps/replay/trial_replay.h"
+#include "apps/task_comparison/comparison_task.h"
 #include "apps/task_palpation/palpation_task.h"
 #include "apps/task_search/search_task.h"
-#include "apps/task_squeeze/squeeze_task.h"
 
 namespace palpa::replay {
 
@@ -85,40 +85,42 @@ class SearchReader {
 /// The trial and the view outlive what is answered.
 std::unique_ptr<TrialReplay> searchReplay(const ShownSearch& trial, scene::SceneView& view);
 
-struct SqueezeMoment {
-  double t_s = 0;  ///< since the trial's start; pauses do not count
-  std::array<runtime::ToolState, 2> tools;
-  int thing = 0;  ///< 0 or 1: which of the two is felt
-  double squeezed_N = 0;
-  bool held = false;
+struct ComparisonMoment {
+  double t_s = 0;                           ///< since the trial's start; pauses do not count
+  std::array<runtime::ToolState, 2> tools;  ///< the second: of two tools
+  int thing = 0;                            ///< 0, 1, ...: which of them is felt
+  double force_N = 0;
+  bool touching = false;
 };
 
 /// A recorded comparison, ready to be shown at any moment.
-struct ShownSqueeze : ShownTrial {
-  Pose X_AD2 = Pose::Identity();  ///< the second device's base
-  Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
-  task_squeeze::SqueezeComparison comparison;
-  std::vector<SqueezeMoment> moments;  ///< not empty
+struct ShownComparison : ShownTrial {
+  std::optional<Pose> X_AD2;     ///< the second device's base, of two
+  Vec3 middle_A = Vec3::Zero();  ///< of the object at rest, where something is held
+  Vec3 up_A = Vec3(0, -1, 0);    ///< out of the surface that is stroked
+  task_comparison::Comparison comparison;
+  std::vector<ComparisonMoment> moments;  ///< not empty
   double length_s() const { return moments.back().t_s; }
 };
 
-/// Takes both tools' ticks in their order and keeps of one trial a moment every 4 ms.
-class SqueezeReader {
+/// Takes the ticks of one tool or both in their order and keeps of one trial a moment every 4 ms.
+class ComparisonReader {
  public:
-  SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET,
-                const task_squeeze::SqueezeComparison& comparison, int trial);
+  /// `X_ET`: of each tool.
+  ComparisonReader(double touch_N, const std::vector<Pose>& X_ET,
+                   const task_comparison::Comparison& comparison, int trial);
   void add(const haptics::FlightRecord& record);
-  const std::vector<SqueezeMoment>& moments() const { return moments_; }
+  const std::vector<ComparisonMoment>& moments() const { return moments_; }
 
  private:
-  std::array<Pose, 2> X_ET_;
-  task_squeeze::SqueezeListener listener_;
+  std::vector<Pose> X_ET_;
+  task_comparison::ComparisonListener listener_;
   std::uint32_t trial_;
   runtime::ToolState first_;
-  std::vector<SqueezeMoment> moments_;
+  std::vector<ComparisonMoment> moments_;
 };
 
 /// The trial and the view outlive what is answered.
-std::unique_ptr<TrialReplay> squeezeReplay(const ShownSqueeze& trial, scene::SceneView& view);
+std::unique_ptr<TrialReplay> comparisonReplay(const ShownComparison& trial, scene::SceneView& view);
 
 }  // namespace palpa::replay

@@ -63,8 +63,11 @@ struct Displayed {
     none,
     harder,
     heavier,
-    aspirated
+    aspirated,
+    rougher,
+    order                       ///< from the smoothest to the roughest
   } question = Question::none;  ///< that the screen asks
+  int things = 0;               ///< between which one chooses, or that are put in order
 };
 
 /// Where the camera was, without its picture.

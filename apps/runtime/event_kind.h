@@ -30,7 +30,7 @@ enum class EventKind : std::uint8_t {
   grade,       ///< and grades it; number of the mark
   let_go,      ///< the handle of a search
   thing,       ///< that is held now
-  answer,      ///< which thing has more, 1 or 2
+  answer,      ///< which thing has more, 1 or 2; the number of the next in an order
   computer,    ///< a part of it does not answer (1), or does again (0); it cannot keep up (1); what
                ///< a trial suffered from that, how often
   picture      ///< is kept of this moment: its file and caption; trial time, s

@@ -13,12 +13,12 @@
 #include "apps/evidence/recorded_trials.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
+#include "apps/session/comparison_session.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_facts.h"
 #include "apps/session/session_records.h"
-#include "apps/session/squeeze_session.h"
 
 namespace palpa::session {
 namespace {
@@ -222,10 +222,11 @@ void writeReportOf(const LeftSession& session, const std::string& made) {
                                                   &evidence::RecordedSearch::again),
           tail, session.evidence);
     case Engine::squeeze:
-      return writeSqueezeResults(
+    case Engine::friction:
+      return writeComparisonResults(
           head,
-          endedOnes<task_squeeze::CompletedSqueeze>(evidence::recordedSqueezes(session.reader),
-                                                    &evidence::RecordedSqueeze::again),
+          endedOnes<task_comparison::CompletedComparison>(
+              evidence::recordedComparisons(session.reader), &evidence::RecordedComparison::again),
           tail, session.evidence);
   }
 }

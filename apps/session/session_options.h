@@ -108,6 +108,7 @@ struct SessionOptions {
   int tools = 1;                          ///< palpation: 2: fingers, each on a device of its own
   /// search: real, degraded, augmented, or all of them one after the other
   std::string mode = "real";
+  bool sort = false;     ///< friction: several surfaces are put in order, in place of two compared
   bool blocks = false;   ///< search: the task's blocks; training in `mode`
   bool assess = false;   ///< assessment: every aid is off
   bool augment = false;  ///< needle, palpation: the task's augmentations add force

@@ -5,13 +5,13 @@
 #include "anatomy/base/error.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
+#include "apps/session/comparison_session.h"
 #include "apps/session/finish_session.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_records.h"
-#include "apps/session/squeeze_session.h"
 
 namespace palpa::session {
 
@@ -88,8 +88,8 @@ SessionLeft holdSqueeze(SessionOptions options) {
   const SqueezeWorld world(options);
   checkTrainee(options);
   return heldIn(options, [&](const std::filesystem::path& folder) {
-    const SqueezeRun run = runSqueeze(options, world, folder);
-    writeSqueezeOutcome(options, world, run, folder);
+    const ComparisonRun run = runComparison(options, world, folder);
+    writeComparisonOutcome(options, world, run, folder);
     return run.quit;
   });
 }
@@ -114,6 +114,26 @@ SessionLeft holdSearch(SessionOptions options) {
   });
 }
 
+SessionLeft holdFriction(SessionOptions options) {
+  settle(options);
+  if (!options.quiet) offerUnfinished();
+  if (options.headset)
+    throw UsageError("does not show friction yet", "--display openxr",
+                     "Choose window or offscreen");
+  const FrictionWorld world(options);
+  settleOperator(options, world.station);
+  if (options.who == OperatorKind::person && world.onBench())
+    throw UsageError(
+        "cannot be felt with a mouse", "--operator person",
+        "Give a station with a haptic device (--station), or take --operator expert or novice");
+  checkTrainee(options);
+  return heldIn(options, [&](const std::filesystem::path& folder) {
+    const ComparisonRun run = runComparison(options, world, folder);
+    writeComparisonOutcome(options, world, run, folder);
+    return run.quit;
+  });
+}
+
 SessionLeft holdSession(Engine engine, SessionOptions options) {
   switch (engine) {
     case Engine::palpation:
@@ -122,6 +142,8 @@ SessionLeft holdSession(Engine engine, SessionOptions options) {
       return holdSearch(std::move(options));
     case Engine::squeeze:
       return holdSqueeze(std::move(options));
+    case Engine::friction:
+      return holdFriction(std::move(options));
     case Engine::needle:
       break;
   }

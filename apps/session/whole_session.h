@@ -19,6 +19,7 @@ SessionLeft holdNeedleSession(SessionOptions options);
 SessionLeft holdPalpation(SessionOptions options);
 SessionLeft holdSqueeze(SessionOptions options);
 SessionLeft holdSearch(SessionOptions options);
+SessionLeft holdFriction(SessionOptions options);
 
 /// The one for a task file's engine.
 SessionLeft holdSession(training::Engine engine, SessionOptions options);

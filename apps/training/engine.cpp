@@ -10,10 +10,11 @@ struct EngineNames {
   std::string name, command, before;
 };
 
-const std::array<EngineNames, 4> kNames{{{"needle", "paracentesis", ""},
+const std::array<EngineNames, 5> kNames{{{"needle", "paracentesis", ""},
                                          {"palpation", "palpation", ""},
                                          {"squeeze", "squeeze", ""},
-                                         {"search", "search", "surface"}}};
+                                         {"search", "search", "surface"},
+                                         {"friction", "friction", ""}}};
 
 const EngineNames& namesOf(Engine engine) { return kNames[static_cast<std::size_t>(engine)]; }
 
@@ -35,7 +36,8 @@ Engine engineIn(const JsonFile& file) {
   const std::string name = file.text("engine");
   const std::optional<Engine> engine = engineNamed(name);
   if (!engine)
-    file.refuse("engine", "is \"" + name + "\"; known: needle, palpation, squeeze, search");
+    file.refuse("engine",
+                "is \"" + name + "\"; known: needle, palpation, squeeze, search, friction");
   return *engine;
 }
 

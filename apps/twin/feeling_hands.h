@@ -8,7 +8,8 @@
 #include "apps/twin/lump_search.h"
 #include "apps/twin/operator_skills.h"
 
-/// Simulated persons who find out by feel: in soft tissue, over a floor, and between two fingers.
+/// Simulated persons who find out by feel: in soft tissue, over a floor, between two fingers, and
+/// under one that strokes.
 namespace palpa::twin {
 
 /// The fingers, one or two, of a simulated person who searches a soft thing for lumps, in vertical
@@ -59,5 +60,15 @@ struct VisibleObject {
 std::array<std::unique_ptr<Hand>, 2> squeezingHands(const SqueezingSkill& skill,
                                                     const VisibleObject& object, const Pose& X_ET,
                                                     std::uint64_t seed);
+
+/// One simulated person stroking over surfaces, one after the other: first in the air, to know what
+/// moving the tool takes; then down until it presses as hard as meant, to and fro, and off. What
+/// rubs by what presses, both as the fingers feel them, is how rough it seems:
+///     (f_along - f_along in the air) / (f_n - f_n in the air),   each time exp(s n), n normal
+/// Says "done" for the next surface, then which of two is rougher, or all from the smoothest to the
+/// roughest, as the screen asks. `X_AP`: the drawn block, origin in the middle of its top, z up.
+/// Knows what is on the screen and what the fingers feel; nothing else.
+std::unique_ptr<Hand> strokingHand(const StrokingSkill& skill, const Pose& X_AP, const Pose& X_ET,
+                                   std::uint64_t seed);
 
 }  // namespace palpa::twin

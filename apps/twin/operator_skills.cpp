@@ -119,4 +119,15 @@ SqueezingSkill readSqueezingSkill(const std::filesystem::path& path) {
   return s;
 }
 
+StrokingSkill readStrokingSkill(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  auto s = handOf<StrokingSkill>(file, "operator_friction");
+  s.press = file.number("press_N", 0.05, 20);
+  s.stroke_speed = kMm * file.number("stroke_speed_mm_per_s", 1, 500);
+  s.stroke_length = kMm * file.number("stroke_length_mm", 5, 60);
+  s.strokes = file.integer("strokes", 1, 20);
+  s.weber_friction = file.number("weber_friction", 0, 1);
+  return s;
+}
+
 }  // namespace palpa::twin

@@ -98,10 +98,23 @@ struct SqueezingSkill {
   double weber_stiffness = 0, weber_weight = 0;  ///< standard deviation of ln of what is felt
 };
 
+/// How a simulated person strokes over surfaces.
+struct StrokingSkill {
+  std::string name;
+  HandGrip grip;
+  double tremor_rms = 0, look_sd = 0;  ///< m
+  double press = 0;                    ///< N
+  double stroke_speed = 0;             ///< m/s, mean
+  double stroke_length = 0;            ///< m
+  int strokes = 0;                     ///< over each surface
+  double weber_friction = 0;           ///< standard deviation of ln of what is felt
+};
+
 /// They throw UsageError naming file and field.
 OperatorSkill readOperatorSkill(const std::filesystem::path& file);
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& file);
 SearchingSkill readSearchingSkill(const std::filesystem::path& file);
 SqueezingSkill readSqueezingSkill(const std::filesystem::path& file);
+StrokingSkill readStrokingSkill(const std::filesystem::path& file);
 
 }  // namespace palpa::twin

@@ -33,6 +33,7 @@ const kTasks = {
   palpation: "Palpation",
   squeeze: "Squeeze",
   search: "Search",
+  friction: "Friction",
 };
 export const taskName = (id) => kTasks[id] || capital(String(id || "task"));
 

@@ -67,6 +67,7 @@ function form(tasks, trainees, me, chosenTrainee) {
     me.display ? "person" : "expert",
   );
   const force = tick("Force feedback", true, "Off: the needle is seen, not felt.");
+  const order = tick("Put several in order", false, "Off: two surfaces are compared.");
   const trials = number(1, 1, 100),
     patient = number(0, 0, 1000000),
     seed = number(1, 0, 1000000);
@@ -80,6 +81,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       options = now?.options || [];
     force.node.hidden = !options.includes("force_feedback");
     side.node.hidden = !options.includes("side");
+    order.node.hidden = !options.includes("sort");
     patientField.hidden = !options.includes("patient_seed");
     const assess = kind.node.querySelector("input[value=assess]");
     assess.disabled = now?.assessable === false;
@@ -95,6 +97,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       trainee: trainee.value,
       assess: kind.value() === "assess",
       force_feedback: force.box.checked,
+      sort: order.box.checked,
       operator: operator.value(),
       trials: whole(trials, 1, 100, "Trials"),
       seed: whole(seed, 0, 1000000, "Seed"),
@@ -124,7 +127,7 @@ function form(tasks, trainees, me, chosenTrainee) {
         operator.node,
       ),
     ),
-    h("div", { class: "grid two" }, kind.node, h("div", {}, side.node, force.node)),
+    h("div", { class: "grid two" }, kind.node, h("div", {}, side.node, force.node, order.node)),
     h(
       "details",
       {},

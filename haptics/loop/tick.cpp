@@ -45,8 +45,10 @@ NeedleContact blendedContact(const TickConfig& config, TickState& state, const N
 /// What is added to a real thing.
 NeedleContact touchedContact(const TickConfig& config, TickState& state, const FlightRecord& record,
                              double dt) {
-  const AugmentedTouch now = augmentTouch(config.touch, record.commands.lumps,
-                                          {touchIn(config, record.sensed), {}}, dt, &state.touch);
+  ToolTouch tool = touchIn(config, record.sensed);
+  tool.friction = static_cast<double>(record.commands.friction);
+  const AugmentedTouch now =
+      augmentTouch(config.touch, record.commands.lumps, {tool, {}}, dt, &state.touch);
   return addedIn(config, now.f_d[0], now.touch[0].x, now.touch[0].f_n);
 }
 
@@ -117,6 +119,7 @@ std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
     frames[t] = beginTick(config.tools[t], state.tools[t], readings[t], nullptr, commands, now_ns,
                           sensed[t]);
     if (frames[t].felt) tools[t] = touchIn(config.tools[t], sensed[t]);
+    tools[t].friction = static_cast<double>(commands.friction);
   }
   const AddedForces added = config.squeezing
                                 ? squeezed(config, state, tools, commands)

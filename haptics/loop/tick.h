@@ -20,8 +20,10 @@ PackedPose toolPose(const TickConfig& config, const TickState& state,
 /// sensor says of a real object at the tool: it counts at the hand's port.
 /// ContactMode::sensed_object asks for no snapshots, and gives no force while the sensor is not
 /// valid; ContactMode::floor asks for none either, `floor` is the one whose number the commands
-/// say. Zero force in the same tick for readings that cannot be, jumps, a clock that stood still or
-/// went back, and after a pause of the loop (watchdog). A device that is not homed touches nothing.
+/// say. A surface whose friction is modulated feels `commands.friction` times as rough as its law's
+/// wanted one. Zero force in the same tick for readings that cannot be, jumps, a clock that stood
+/// still or went back, and after a pause of the loop (watchdog). A device that is not homed touches
+/// nothing.
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
                   const SensedForce& sensed = {}, const Floor* floor = nullptr) noexcept;

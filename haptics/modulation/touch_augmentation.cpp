@@ -1,5 +1,7 @@
 #include "haptics/modulation/touch_augmentation.h"
 
+#include <cmath>
+
 namespace palpa::haptics {
 namespace {
 
@@ -14,8 +16,13 @@ Modulated feel(const TouchAugmentation& law, const ToolTouch& tool, double dt, s
   const Vec3 dp = state->held[t] ? Vec3(tool.p_M - unpack(state->p_before[t])) : Vec3(Vec3::Zero());
   state->p_before[t] = pack(tool.p_M);
   state->held[t] = 1;
-  if (law.other_friction)
-    return modulateFriction(law.surface, tool.f_r, dp, dt, &state->surface[t]);
+  if (law.other_friction) {
+    const double factor = std::isfinite(tool.friction) && tool.friction >= 0 ? tool.friction : 1;
+    FrictionModulation surface = law.surface;
+    surface.wanted.mu *= factor;
+    surface.wanted.B *= factor;
+    return modulateFriction(surface, tool.f_r, dp, dt, &state->surface[t]);
+  }
   return modulateStiffness(law.surface.contact, tool.f_r, dp, dt, &state->surface[t].contact);
 }
 

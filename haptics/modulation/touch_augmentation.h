@@ -27,6 +27,7 @@ static_assert(std::is_trivially_copyable_v<TouchAugmentation>);
 struct ToolTouch {
   bool present = false;  ///< there is such a tool, and its readings are good
   Vec3 p_M = Vec3::Zero(), f_r = Vec3::Zero();
+  double friction = 1;  ///< times the law's wanted friction, where that is not the real one
 };
 
 struct TouchAugmentationState {
@@ -47,6 +48,7 @@ struct AugmentedTouch {
 
 ///     f_d* = (k~ x* - f_n*) u_n*  [+ f_targ* - f_real*]
 ///            +  sum over lumps (f_T* + f_t* (f_T* . u_n*) / f_n*)
+/// f_targ: of mu and B of the wanted friction, times the tool's factor (0 or more; else 1).
 /// Each lump feels both tools, and no other lump. Where there is no contact there is no force. No
 /// allocation, no exception.
 AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,

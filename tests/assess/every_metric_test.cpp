@@ -12,7 +12,7 @@ namespace {
 TEST(MetricTable, EveryFigureIsNamedInATestOfAssessment) {
   std::string tests;
   for (const char* folder :
-       {"assess", "competence", "palpation_score", "search_score", "squeeze_score"})
+       {"assess", "competence", "palpation_score", "search_score", "comparison_score"})
     for (const auto& entry : std::filesystem::directory_iterator(
              std::filesystem::path(PALPA_SOURCE_DIR) / "tests" / folder))
       if (entry.path().extension() == ".cpp" && entry.path().filename() != "every_metric_test.cpp")

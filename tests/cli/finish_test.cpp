@@ -22,8 +22,11 @@ struct Kind {
   const char* section_end;  ///< of what a report says of one trial
 };
 constexpr Kind kNeedle{"paracentesis", "</section>"};
-constexpr Kind kAll[] = {
-    kNeedle, {"palpation", "</section>"}, {"search", "</tr>"}, {"squeeze", "</tr>"}};
+constexpr Kind kAll[] = {kNeedle,
+                         {"palpation", "</section>"},
+                         {"search", "</tr>"},
+                         {"squeeze", "</tr>"},
+                         {"friction", "</tr>"}};
 
 std::vector<std::string> threeTrials(const Kind& kind, const std::string& out) {
   return quickly(

@@ -70,7 +70,9 @@ TEST(ReplayView, EveryTaskIsSeenAgain) {
   for (const std::vector<std::string>& task :
        {std::vector<std::string>{"palpation", "--preset", "prostate"},
         {"search", "--mode", "augmented"},
-        {"squeeze"}}) {
+        {"squeeze"},
+        {"friction"},
+        {"friction", "--sort"}}) {
     const Folder here;
     std::vector<std::string> arguments = task;
     arguments.insert(arguments.end(),

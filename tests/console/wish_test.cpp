@@ -35,6 +35,7 @@ TEST(SessionWish, WhatIsAskedForIsTaken) {
                                    {"side", "left"},
                                    {"assess", true},
                                    {"force_feedback", false},
+                                   {"sort", true},
                                    {"trials", 50},
                                    {"seed", 1'000'000'000},
                                    {"patient_seed", 7},
@@ -45,6 +46,7 @@ TEST(SessionWish, WhatIsAskedForIsTaken) {
   EXPECT_EQ(wish.side, "left");
   EXPECT_TRUE(wish.assess);
   EXPECT_FALSE(wish.force_feedback);
+  EXPECT_TRUE(wish.sort);
   EXPECT_EQ(wish.trials, 50);
   EXPECT_EQ(wish.seed, 1'000'000'000u);
   EXPECT_EQ(wish.patient_seed, 7u);
@@ -66,6 +68,7 @@ TEST(SessionWish, EveryBadWishIsRefusedInWords) {
       {"side", {nullptr, 1, "", "both", "Right"}},
       {"assess", {nullptr, 0, 1, "true", ""}},
       {"force_feedback", {nullptr, 0, 1, "on"}},
+      {"sort", {nullptr, 0, 1, "on"}},
       {"trials",
        {nullptr, 0, -1, 51, 1.0, 1.5, "1", true, 4294967297ll, -9223372036854775807ll,
         18446744073709551615ull, 1e300}},

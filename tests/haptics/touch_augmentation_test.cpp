@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "tests/support/allocation_count.h"
 
 namespace palpa::haptics {
@@ -100,6 +103,90 @@ TEST(TouchAugmentation, AToolThatIsNotThereOrTellsNonsenseIsForgotten) {
   EXPECT_EQ(now.f_d[1], now.touch[1].f_d);
   EXPECT_EQ(now.f_d[0], Vec3(Vec3::Zero()));
   EXPECT_EQ(none.allocations(), 0);
+}
+
+/// A tool that rubs along x over a real surface with Dahl's friction, pressed with 1 N.
+struct Rubbing {
+  explicit Rubbing(double times_as_rough) : factor(times_as_rough) {
+    law.other_friction = 1;
+    for (int i = 0; i < 20; ++i) move(0);
+  }
+  /// What the hand feels in this tick, real and added.
+  Vec3 move(double dx) {
+    x += dx;
+    f_r = Vec3(0, 0, 1) -
+          dragOf(kTouchedSurface, Vec3(dx, 0, 0), Vec3::UnitZ(), 1, kTouchTick, &real);
+    const AugmentedTouch now =
+        augmentTouch(law, {}, {{{true, Vec3(x, 0, 0.004), f_r, factor}, {}}}, kTouchTick, &state);
+    return f_r + now.f_d[0];
+  }
+
+  double factor, x = 0;
+  TouchAugmentation law = lumpy();
+  DahlState real;
+  TouchAugmentationState state;
+  Vec3 f_r = Vec3::Zero();
+};
+
+TEST(TouchAugmentation, TimesTheFrictionIsFeltOnceItSlides) {
+  constexpr double kSpeed = 0.05;  // m/s
+  const double once = kTouchedSurface.mu + kTouchedSurface.B * kSpeed;
+  for (const double factor : {0.0, 0.5, 1.0, 2.0, 3.0}) {
+    Rubbing rubbing(factor);
+    Vec3 felt = Vec3::Zero();
+    for (int i = 0; i < 400; ++i) felt = rubbing.move(kSpeed * kTouchTick);
+    EXPECT_NEAR(felt.x(), -factor * once, 1e-6) << factor;
+    EXPECT_NEAR(felt.z(), 1, 1e-6) << "pressing feels as it does";
+  }
+}
+
+TEST(TouchAugmentation, OnceTheFrictionIsTheRealOneBeforeItSlidesToo) {
+  Rubbing rubbing(1);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 felt = rubbing.move(i % 100 < 50 ? 4e-6 : -4e-6);
+    EXPECT_LT((felt - rubbing.f_r).norm(), 1e-9);
+  }
+}
+
+TEST(TouchAugmentation, AFactorThatIsNoneIsOne) {
+  for (const double none : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Rubbing wrong(none), once(1);
+    Vec3 felt = Vec3::Zero(), real = Vec3::Zero();
+    for (int i = 0; i < 50; ++i) felt = wrong.move(2e-5), real = once.move(2e-5);
+    EXPECT_EQ(felt, real) << none;
+  }
+}
+
+TEST(TouchAugmentation, OffContactAFactorAddsNothingAndIsForgotten) {
+  Rubbing rubbing(2);
+  for (int i = 0; i < 50; ++i) rubbing.move(5e-5);
+  const NoAllocation none;
+  const AugmentedTouch off =
+      augmentTouch(rubbing.law, {}, {{{true, Vec3(rubbing.x, 0, 0.01), Vec3(0, 0, 0.01), 2.0}, {}}},
+                   kTouchTick, &rubbing.state);
+  EXPECT_EQ(off.f_d[0], Vec3(Vec3::Zero()));
+  EXPECT_EQ(rubbing.state.surface[0].wanted.F, (Packed3{0, 0, 0}));
+  EXPECT_EQ(none.allocations(), 0);
+}
+
+/// To and fro along the same way, wide and narrow: the hand never gets more than it gave.
+TEST(TouchAugmentation, AClosedStrokeGivesTheHandNoEnergy) {
+  for (const double factor : {0.0, 0.5, 1.0, 2.0})
+    for (const int steps : {20, 1000}) {
+      Rubbing rubbing(factor);
+      double given_J = 0;
+      for (int loop = 0; loop < 5; ++loop) {
+        if (loop == 1) given_J = 0;  // the first one loads what gives way before it slides
+        for (int i = 0; i < 2 * steps; ++i) {
+          const double dx = i < steps ? 1e-5 : -1e-5;
+          given_J += rubbing.move(dx).x() * dx;
+        }
+      }
+      EXPECT_LE(given_J, 1e-12) << factor << ", " << steps;
+      if (factor > 0 && steps == 1000) {
+        EXPECT_LT(given_J, -4 * factor * 0.85 * kTouchedSurface.mu * 0.02);
+      }
+    }
 }
 
 }  // namespace

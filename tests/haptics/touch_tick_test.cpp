@@ -77,6 +77,31 @@ TEST(TouchTick, TwiceAsHardIsAsMuchAgain) {
   EXPECT_NEAR(last.f_command_D[2], forceOf(kRealThing, 0.006, 0), 0.01);
 }
 
+/// As the trial asks for it; where friction is not modulated, nothing is done.
+TEST(TouchTick, TheTrialSaysHowRoughTheSurfaceIs) {
+  const auto addedAlong = [](float friction, bool other) {
+    TouchLoop loop;
+    loop.config.touch.other_friction = other;
+    loop.commands.friction = friction;
+    loop.press(0, 0.006);
+    const double f_n = forceOf(kRealThing, 0.006, 0);
+    DahlState real;
+    FlightRecord last;
+    for (int i = 1; i <= 400; ++i) {
+      const Vec3 drag =
+          dragOf(kRealThingsSurface, Vec3(2e-5, 0, 0), Vec3::UnitZ(), f_n, 1e-3, &real);
+      last = loop.step({2e-5 * i, 0, -0.006}, Vec3(0, 0, f_n) - drag);
+    }
+    return last.f_command_D[0];
+  };
+  const double once = forceOf(kRealThing, 0.006, 0) * kRealThingsSurface.mu +
+                      kRealThingsSurface.B * 0.02;  // N; slides at 2 cm/s
+  EXPECT_NEAR(addedAlong(2, true), -once, 0.02 * once);
+  EXPECT_NEAR(addedAlong(0.5F, true), 0.5 * once, 0.02 * once);
+  EXPECT_NEAR(addedAlong(1, true), 0, 0.02 * once);
+  EXPECT_NEAR(addedAlong(2, false), 0, 1e-9);
+}
+
 /// Where the trial has put it, and nowhere else; in whatever frame the device is.
 TEST(TouchTick, ALumpIsFeltWhereItLies) {
   const auto at = [](double x, const Pose& X_DP) {

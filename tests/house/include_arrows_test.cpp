@@ -84,8 +84,9 @@ TEST(IncludeArrows, TasksKnowNeitherRecordNorReportNorTwinNorEachOther) {
         "\"apps/assess/search/search_trial.h\"", "\"apps/session/needle_session.h\""})
     EXPECT_EQ(wrong("apps/task_needle/task_file.h", other), 1u) << other;
   EXPECT_EQ(wrong("apps/assess/needle/passes.h", "\"apps/assess/search/search_trial.h\""), 1u);
-  EXPECT_EQ(wrong("apps/report/squeeze/squeeze_report.h", "\"apps/report/search/search_report.h\""),
-            1u);
+  EXPECT_EQ(
+      wrong("apps/report/comparison/comparison_report.h", "\"apps/report/search/search_report.h\""),
+      1u);
 }
 
 TEST(IncludeArrows, OnlyTwinBenchAndProgramSeeTheTruth) {

@@ -21,8 +21,9 @@ const std::vector<Layer>& layers();
 /// The layer with the longest folder that holds the file; nullptr for files of no layer (tests).
 const Layer* layerOf(const std::string& path);
 
-/// `header` of the project must not come to the file at `path` by any way. Engines (needle,
-/// palpation, squeeze, search) do not know each other, neither as tasks nor in scores and reports.
+/// `header` of the project must not come to the file at `path` by any way. Kinds of task (needle,
+/// palpation, comparison, search) do not know each other, neither as tasks nor in scores and
+/// reports.
 bool mustNotReach(const Layer& layer, const std::string& path, const std::string& header);
 
 /// The file at `path` may include `header` of the project.

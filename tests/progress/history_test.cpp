@@ -73,7 +73,8 @@ TEST(History, EveryFigureShownIsInTheTable) {
   const std::optional<Engine> unknown;
   for (const std::optional<Engine> engine :
        {std::optional(Engine::needle), std::optional(Engine::palpation),
-        std::optional(Engine::search), std::optional(Engine::squeeze), unknown})
+        std::optional(Engine::search), std::optional(Engine::squeeze),
+        std::optional(Engine::friction), unknown})
     for (const std::string& name : shownFigures(engine)) {
       const metrics::MetricDefinition* definition = metrics::metricNamed(name);
       ASSERT_NE(definition, nullptr) << name;
@@ -86,6 +87,7 @@ TEST(History, AnEngineIsKnownByItsFigures) {
   EXPECT_EQ(engineOfFigures({"presses"}), training::Engine::palpation);
   EXPECT_EQ(engineOfFigures({"chosen"}), training::Engine::search);
   EXPECT_EQ(engineOfFigures({"grips"}), training::Engine::squeeze);
+  EXPECT_EQ(engineOfFigures({"touches"}), training::Engine::friction);
   EXPECT_EQ(engineOfFigures({}), std::nullopt);
   EXPECT_TRUE(std::isnan(cleanTrial("A", 1).metric("no such")));
 }

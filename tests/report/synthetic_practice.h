@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "anatomy/base/random.h"
-#include "apps/report/practice/cohort_report.h"
-#include "apps/report/practice/trainee_report.h"
+#include "apps/report/practice/practice_reports.h"
 #include "apps/training/engine.h"
 #include "apps/training/trial_words.h"
 

@@ -116,7 +116,7 @@ TEST_P(Agreement, SchemaAndReaderTakeAndRefuseTheSame) {
 INSTANTIATE_TEST_SUITE_P(Kinds, Agreement, testing::ValuesIn(everyKind()), nameOf);
 
 TEST(Kinds, EverySchemaHasItsReader) {
-  std::set<std::string> named{"task"};  // any of the four engines' schemas
+  std::set<std::string> named{"task"};  // any of the five engines' schemas
   for (const Kind& kind : everyKind()) named.insert(kind.name);
   const std::vector<std::string> published = publishedKinds();
   EXPECT_EQ(std::set<std::string>(published.begin(), published.end()), named);

@@ -15,10 +15,10 @@
 #include "apps/study/learning.h"
 #include "apps/study/protocol.h"
 #include "apps/study/questionnaire.h"
+#include "apps/task_comparison/comparison_file.h"
 #include "apps/task_needle/task_file.h"
 #include "apps/task_palpation/palpation_file.h"
 #include "apps/task_search/search_file.h"
-#include "apps/task_squeeze/squeeze_file.h"
 #include "apps/twin/bench_faults.h"
 #include "apps/twin/bench_truth.h"
 #include "apps/twin/feeling_hands.h"
@@ -164,8 +164,15 @@ std::vector<Kind> taskKinds() {
            .elsewhere = {}},
           {.name = "task_squeeze",
            .samples = {{"tasks/squeeze.json", json::object()}},
-           .read = [](const fs::path& file) { task_squeeze::readSqueeze(file); },
+           .read = [](const fs::path& file) { task_comparison::readSqueeze(file); },
            .stricter = {"/lumps.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "task_friction",
+           .samples = {{"tasks/friction.json", json::object()}},
+           .read = [](const fs::path& file) { task_comparison::readFriction(file); },
+           // Surfaces differ by more than rounding, and there are enough of them.
+           .stricter = {"/lumps.*", "/sort/(friction|surfaces).*"},
            .forgiving = {},
            .elsewhere = {}}};
 }
@@ -424,6 +431,12 @@ std::vector<Kind> operatorKinds() {
            .samples = {{"operators/squeeze_expert.json", json::object()}},
            .read = [](const fs::path& file) { twin::readSqueezingSkill(file); },
            .stricter = {"/(hold|squeeze)_N.*"},  // to squeeze takes more than to hold
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "operator_friction",
+           .samples = {{"operators/friction_expert.json", json::object()}},
+           .read = [](const fs::path& file) { twin::readStrokingSkill(file); },
+           .stricter = {},
            .forgiving = {},
            .elsewhere = {}}};
 }

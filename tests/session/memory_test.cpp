@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "anatomy/base/quantile.h"
+#include "apps/session/comparison_session.h"
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
-#include "apps/session/squeeze_session.h"
 #include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
 #include "tests/support/live_bytes.h"
@@ -90,8 +90,18 @@ TEST(Memory, OfASearchIsThatOfItsResults) {
 TEST(Memory, OfASqueezeIsThatOfItsResults) {
   EXPECT_LT(heldPerTrial<SqueezeWorld>(2,
                                        [](const SessionOptions& options, const auto& world) {
-                                         return runSqueeze(options, world, freshPlace("squeeze"));
+                                         return runComparison(options, world,
+                                                              freshPlace("squeeze"));
                                        }),
+            kResultBytes);
+}
+
+TEST(Memory, OfFrictionIsThatOfItsResults) {
+  EXPECT_LT(heldPerTrial<FrictionWorld>(2,
+                                        [](const SessionOptions& options, const auto& world) {
+                                          return runComparison(options, world,
+                                                               freshPlace("friction"));
+                                        }),
             kResultBytes);
 }
 

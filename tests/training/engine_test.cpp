@@ -8,7 +8,8 @@ namespace palpa::training {
 namespace {
 
 TEST(Engine, NamesRoundTripAndTheOldNameIsRead) {
-  for (const Engine engine : {Engine::needle, Engine::palpation, Engine::squeeze, Engine::search})
+  for (const Engine engine :
+       {Engine::needle, Engine::palpation, Engine::squeeze, Engine::search, Engine::friction})
     EXPECT_EQ(engineNamed(nameOf(engine)), engine);
   EXPECT_EQ(engineNamed("surface"), Engine::search);
   EXPECT_FALSE(engineNamed(""));

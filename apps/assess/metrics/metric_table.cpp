@@ -36,7 +36,7 @@ constexpr MetricDefinition kMetrics[] = {
      "root of the integral of the squared third derivative of the tip's position; grows with a "
      "station's noise",
      "the trial is shorter than 80 ms"},
-    {"peak_force_N", "Largest force", "N", lower, "needle, palpation, search, squeeze",
+    {"peak_force_N", "Largest force", "N", lower, "needle, palpation, search, squeeze, friction",
      "largest computed force of contact, means of 20 ms", ""},
     {"mean_force_N", "Mean force", "N", neither, "needle, palpation, search",
      "mean computed force while it is 0.05 N or more", kNoContact},
@@ -67,9 +67,13 @@ constexpr MetricDefinition kMetrics[] = {
     // Search and comparison
     {"chosen", "An element was chosen", "1", higher, "search",
      "1 when the probe stayed in a pit before the time was over, else 0", ""},
-    {"difference_pct", "Difference of the two things", "%", neither, "squeeze",
-     "how much more the one has than the other", ""},
+    {"difference_pct", "Difference of the two things", "%", neither, "squeeze, friction",
+     "how much more the one has than the other", "more than two were put in order"},
     {"grips", "Grips", "1", lower, "squeeze", "how often the two were held", ""},
+    {"touches", "Touches", "1", lower, "friction", "how often the surfaces were touched", ""},
+    {"order_tau", "Order told", "1", higher, "friction",
+     "Kendall's tau of the order that was said and the true one: 1 the same, -1 reversed",
+     "two things were compared"},
     // Needle
     {"total", "Total penalty", "1", lower, "needle",
      "sum of weight x value of the nine values of the score (Tzafestas 2008)", kNoPath},

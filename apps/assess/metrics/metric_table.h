@@ -22,7 +22,7 @@ struct MetricDefinition {
 
 std::span<const MetricDefinition> metricTable();
 bool belongsTo(const MetricDefinition& definition,
-               std::string_view engine);  ///< "needle", "palpation", "search", "squeeze"
+               std::string_view engine);                     ///< "needle", "palpation", ...
 const MetricDefinition* metricNamed(std::string_view name);  ///< null: none has this name
 
 /// A figure of a trial. Not a number: does not apply.

@@ -55,7 +55,10 @@ const std::map<Engine, std::vector<ErrorKind>> kKindsOfEngines{
        "cross each element at the same speed and compare before staying in one"}}},
     {Engine::squeeze,
      {{"success", 0.5, true, "the answer was wrong or missing",
-       "squeeze both equally deep and equally fast before answering"}}}};
+       "squeeze both equally deep and equally fast before answering"}}},
+    {Engine::friction,
+     {{"success", 0.5, true, "the answer was wrong or missing",
+       "stroke each surface with the same pressure and the same speed before answering"}}}};
 
 assess::ParacentesisValues valuesOf(const PracticeTrial& t) {
   return {t.metric("col_lung"),     t.metric("col_rib"),

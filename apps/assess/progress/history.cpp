@@ -54,6 +54,7 @@ constexpr std::array<std::string_view, kFigures> kKept{"back_wall_punctures",
                                                        "too_hard_pct",
                                                        "too_light_pct",
                                                        "total",
+                                                       "touches",
                                                        "translational_actions"};
 static_assert(std::is_sorted(kKept.begin(), kKept.end()));
 
@@ -178,7 +179,8 @@ std::optional<Engine> engineOfFigures(const std::vector<std::string>& metrics) {
   };
   for (const auto& [name, engine] :
        {std::pair{"tissue_time_s", Engine::needle}, std::pair{"presses", Engine::palpation},
-        std::pair{"chosen", Engine::search}, std::pair{"grips", Engine::squeeze}})
+        std::pair{"chosen", Engine::search}, std::pair{"grips", Engine::squeeze},
+        std::pair{"touches", Engine::friction}})
     if (has(name)) return engine;
   return std::nullopt;
 }
@@ -192,7 +194,8 @@ const std::vector<std::string>& shownFigures(std::optional<Engine> engine) {
        {"sensitivity_pct", "specificity_pct", "false_alarms", "coverage_medium_pct",
         "coverage_deep_pct", "time_s", "too_light_pct", "too_hard_pct"}},
       {Engine::search, {"success", "time_s", "path_length_mm", "peak_force_N"}},
-      {Engine::squeeze, {"success", "time_s", "grips", "peak_force_N"}}};
+      {Engine::squeeze, {"success", "time_s", "grips", "peak_force_N"}},
+      {Engine::friction, {"success", "time_s", "touches", "peak_force_N"}}};
   static const std::vector<std::string> kAnyTask{"success", "time_s"};
   return engine ? kShown.at(*engine) : kAnyTask;
 }

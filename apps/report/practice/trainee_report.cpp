@@ -1,4 +1,4 @@
-#include "apps/report/practice/trainee_report.h"
+#include "apps/report/practice/practice_reports.h"
 
 #include <algorithm>
 #include <set>
