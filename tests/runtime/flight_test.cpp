@@ -84,7 +84,11 @@ bool sameBits(const haptics::FlightRecord& a, const haptics::FlightRecord& b) {
          a.snapshot == b.snapshot;
 }
 
-/// Every activity of a session's heart on `executive`, until the sink has `last` ticks.
+constexpr double kTouch = 0.5;  ///< N; skin gives way at 1.5 N
+constexpr std::int64_t kGivenUp = 60'000 * kMillisecond;
+
+/// Every activity of a session's heart on `executive`, until the sink has `last` ticks and the
+/// needle has touched: a thread that waits long for its turn may miss a dip, not every one.
 struct Heart {
   Heart(std::unique_ptr<Executive> e, std::size_t last)
       : executive(std::move(e)),
@@ -110,7 +114,10 @@ struct Heart {
                commands.armed = commands.trial = 1;
                bus.task_to_haptic.publish(commands, now);
                haptics::FlightRecord record;
-               while (bus.haptic_to_task.pop(&record)) ++judged;
+               while (bus.haptic_to_task.pop(&record)) {
+                ++judged;
+                if (unpack(record.f_contact_D).norm() > 0.5) touched = true;
+              }
                return now + 10 * kMillisecond;
              }),
         watch("watch", [this, last](std::int64_t now) {
@@ -118,7 +125,8 @@ struct Heart {
             backwards += tool->t_ns < last_seen;
             last_seen = tool->t_ns;
           }
-          if (static_cast<std::size_t>(judged.load()) >= last) executive->stop();
+          const bool enough = static_cast<std::size_t>(judged.load()) >= last && touched;
+          if (enough || now > kGivenUp) executive->stop();
           return now + 5 * kMillisecond;
         }) {
     executive->add(hand, {0, false, false});
@@ -141,6 +149,7 @@ struct Heart {
   RecorderActivity recorder;
   std::uint64_t sequence = 0, number = 0;
   std::atomic<int> judged{0};
+  std::atomic<bool> touched{false};
   std::int64_t last_seen = 0;
   int backwards = 0;
   Doing hand, geometry, task, watch;
@@ -183,7 +192,7 @@ void expectAWholeRecord(const Heart& heart, std::size_t ticks) {
     strongest = std::max(strongest, unpack(record.f_contact_D).norm());
     snapshots = std::max(snapshots, record.snapshot);
   }
-  EXPECT_GT(strongest, 0.5) << "the needle touched nothing";  // skin gives way at 1.5 N
+  EXPECT_GT(strongest, kTouch) << "the needle touched nothing";
   EXPECT_GT(snapshots, 3u);
 }
 
