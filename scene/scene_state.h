@@ -30,7 +30,9 @@ struct EyeCamera {
   Pose X_CA = Pose::Identity();
 };
 
-enum class ForceKind { reaction, weight, device, felt };  ///< felt: their sum
+/// weight, friction: what does not press back, of what is held and of what is stroked; felt: all of
+/// them
+enum class ForceKind { reaction, weight, friction, device, felt };
 /// paper: grays, as Jeon, Choi and Harders (2015) have them. safe: colours of Okabe and Ito (2008),
 /// told apart by colour-blind eyes and by brightness.
 enum class ForceColours { paper, safe };

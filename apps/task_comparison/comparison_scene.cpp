@@ -21,14 +21,15 @@ class ToolArrows {
 
   const Vec3& shown() const { return shown_; }
 
-  void add(const Vec3& reaction, std::vector<scene::ForceArrow>* all) const {
+  /// `rest`: what the force beside the reaction is.
+  void add(const Vec3& reaction, scene::ForceKind rest, std::vector<scene::ForceArrow>* all) const {
     const Vec3 at_handle_T(0, 0, -0.11), beside_T(0, 0, -0.06);
     const auto show = [all](scene::ForceKind kind, const Vec3& p_A, const Vec3& f_A) {
       if (f_A.norm() > kShown_N) all->push_back({kind, p_A, f_A});
     };
     const Vec3 tip = tool_.X_AT.translation();
     show(scene::ForceKind::reaction, tip, reaction);
-    show(scene::ForceKind::weight, tip, shown_ - reaction);
+    show(rest, tip, shown_ - reaction);
     if (!apart_) return;
     show(scene::ForceKind::device, tool_.X_AT * at_handle_T, device_);
     show(scene::ForceKind::felt, tool_.X_AT * beside_T, shown_ + device_);
@@ -54,15 +55,15 @@ std::vector<scene::ForceArrow> squeezeForces(const std::array<ShownTool, 2>& too
   const ToolArrows first(tools[0], apart), second(tools[1], apart);
   const double F = std::max(0.5 * (first.shown() - second.shown()).dot(l), 0.0);
   std::vector<scene::ForceArrow> all;
-  first.add(F * l, &all);
-  second.add(-F * l, &all);
+  first.add(F * l, scene::ForceKind::weight, &all);
+  second.add(-F * l, scene::ForceKind::weight, &all);
   return all;
 }
 
 std::vector<scene::ForceArrow> strokeForces(const ShownTool& tool, const Vec3& up_A, bool apart) {
   const ToolArrows arrows(tool, apart);
   std::vector<scene::ForceArrow> all;
-  arrows.add(arrows.shown().dot(up_A) * up_A, &all);
+  arrows.add(arrows.shown().dot(up_A) * up_A, scene::ForceKind::friction, &all);
   return all;
 }
 

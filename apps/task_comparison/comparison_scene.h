@@ -55,7 +55,7 @@ struct ShownTool {
 std::vector<scene::ForceArrow> squeezeForces(const std::array<ShownTool, 2>& tools, bool apart);
 
 /// The arrows at a stroking tool in the same way: what presses back along the surface's normal,
-/// and what rubs across it, drawn as the weight is (what is not along the pressing):
+/// and what rubs across it, in the weight's colour:
 ///     reaction (f . up) up,   friction f - (f . up) up
 std::vector<scene::ForceArrow> strokeForces(const ShownTool& tool, const Vec3& up_A, bool apart);
 

@@ -18,7 +18,8 @@ constexpr double kHover = 0.008;     // m above the surface: where the hand move
 constexpr double kComes_s = 0.8, kLifts_s = 0.4, kBetween_s = 0.5, kWord_s = 0.2;
 constexpr double kDownSpeed = 0.01;     // m/s
 constexpr double kFarthestDown = 0.01;  // m: a hand that feels nothing stops there
-constexpr double kPressGain = 0.01;     // m/(N s): how fast a wrong pressure is corrected [chosen]
+constexpr double kPressCorrection =
+    0.01;  // m/(N s): how fast a wrong pressure is corrected [chosen]
 constexpr double kFrom = 0.2, kTo = 0.8;  // of a stroke: between them it slides evenly
 constexpr double kLeastRub = 0.01;        // of the pressure: less is felt as that
 constexpr int kAirStrokes = 2;
@@ -148,8 +149,9 @@ class StrokingHand final : public Hand {
         strokes_ = {};
         return go(StrokingStep::stroke, now_s);
       case StrokingStep::stroke:
-        at_P_.z() = std::max(at_P_.z() + kPressGain * (pressed() - skill_.press) * kConsider_s,
-                             -kFarthestDown);
+        at_P_.z() =
+            std::max(at_P_.z() + kPressCorrection * (pressed() - skill_.press) * kConsider_s,
+                     -kFarthestDown);
         if (!stroked(now_s, skill_.strokes, &strokes_)) return;
         judged_.resize(thing_ + 1);
         judged_[thing_] = judged();

@@ -82,6 +82,7 @@ Rgb arrowColour(ForceKind kind, ForceColours colours) {
     case ForceKind::reaction:
       return safe ? Rgb{0.835, 0.369, 0.000} : Rgb{0.22, 0.22, 0.22};  // vermilion
     case ForceKind::weight:
+    case ForceKind::friction:
       return safe ? Rgb{0.337, 0.706, 0.914} : Rgb{0.50, 0.50, 0.50};  // sky blue
     case ForceKind::felt:
       return {1, 1, 1};
@@ -102,6 +103,8 @@ const char* name(ForceKind kind) {
       return "reaction";
     case ForceKind::weight:
       return "weight";
+    case ForceKind::friction:
+      return "friction";
     case ForceKind::felt:
       return "felt";
     case ForceKind::device:

@@ -311,7 +311,7 @@ TEST(StrokeForces, WhatPressesAndWhatRubsAsFeltAndApart) {
   EXPECT_LT((felt[1].f_A - Vec3(-0.6, 0, 0)).norm(), 1e-12);
   ASSERT_EQ(apart.size(), 4u);
   const auto first = firstOnes(apart);
-  EXPECT_LT((first.at(scene::ForceKind::weight) - Vec3(-0.3, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((first.at(scene::ForceKind::friction) - Vec3(-0.3, 0, 0)).norm(), 1e-12);
   EXPECT_LT((first.at(scene::ForceKind::device) - Vec3(-0.3, 0, 0)).norm(), 1e-12);
   EXPECT_LT((first.at(scene::ForceKind::felt) - Vec3(-0.6, 0, 1)).norm(), 1e-12);
 }

@@ -222,13 +222,13 @@ void writeComparisonReport(const ComparisonReport& report, const std::filesystem
 
 namespace {
 
-constexpr double kTop = 16, kHigh = 170, kDot = 6, kWhisker = 7;  // px
+constexpr double kSharesTop = 16, kHigh = 170, kDot = 6, kWhisker = 7;  // px
 
 void drawShares(Html& html, const assess::Discrimination& answers, const char* what,
                 const ChartFrame& frame) {
-  const auto svg = openSvg(html, frame, kTop + kHigh + 46,
+  const auto svg = openSvg(html, frame, kSharesTop + kHigh + 46,
                            std::string("Share of right answers to which one was ") + what);
-  const Axis y{0, 1, kTop + kHigh, kTop};
+  const Axis y{0, 1, kSharesTop + kHigh, kSharesTop};
   const double left = frame.left, right = frame.width - frame.right,
                column = (right - left) / static_cast<double>(answers.shares.size());
   for (const double share : {0.0, 0.5, 1.0}) {
