@@ -116,7 +116,7 @@ struct Heart {
                haptics::FlightRecord record;
                while (bus.haptic_to_task.pop(&record)) {
                  ++judged;
-                 if (unpack(record.f_contact_D).norm() > 0.5) touched = true;
+                 if (unpack(record.f_contact_D).norm() > kTouch) touched = true;
                }
                return now + 10 * kMillisecond;
              }),
