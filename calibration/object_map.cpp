@@ -53,12 +53,6 @@ Eigen::MatrixXd distances(const std::vector<TouchedPlace>& touches) {
 
 }  // namespace
 
-TouchedPlace secantStiffness(const SoftContact& press, double depth, const Eigen::Vector2d& at) {
-  const Eigen::Vector4d by(1 / press.law.k, 0, std::log(depth), 0);  // (k, b, m, x0)
-  return {at, std::log(press.law.k) + (press.law.m - 1) * std::log(depth),
-          std::sqrt(by.dot(press.covariance * by))};
-}
-
 ObjectMap::ObjectMap(std::vector<TouchedPlace> touches, double shared_sd)
     : touches_(std::move(touches)), shared_sd_(shared_sd) {
   checkTouches(touches_);

@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "calibration/contact_laws.h"
-
 /// What a soft thing is like all over its surface, learnt from touches here and there.
 namespace palpa::calibration {
 
@@ -16,9 +14,6 @@ struct TouchedPlace {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, along the surface
   double ln = 0, sd = 0;
 };
-
-/// Force by depth at `depth`, m, pressed slowly, N/m: k depth^(m - 1). `at`: where it was pressed.
-TouchedPlace secantStiffness(const SoftContact& press, double depth, const Eigen::Vector2d& at);
 
 struct MapValue {
   double value = 0, low = 0, high = 0;  ///< the middle and the ends of the 95 % interval
