@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -151,21 +152,24 @@ std::vector<Eigen::Vector2d> placesOf(const MappedArea& area) {
   return places;
 }
 
-MapVerdict judge(const ObjectMap& map, const MappedArea& area) {
-  const std::vector<Eigen::Vector2d> places = placesOf(area);
+MapVerdict judge(const ObjectMap& map, const MappedArea& area, int next, double apart) {
   const double enough = std::log(1 + area.within) / kInterval;
+  std::vector<std::pair<double, Eigen::Vector2d>> places;
+  for (const Eigen::Vector2d& p : placesOf(area)) places.emplace_back(map.at(p).sd, p);
   MapVerdict verdict;
-  double least_known = -1;
-  std::size_t known = 0;
-  for (const Eigen::Vector2d& p : places) {
-    const double sd = map.at(p).sd;
-    known += sd <= enough;
-    if (sd <= least_known) continue;
-    least_known = sd;
-    verdict.next = p;
-  }
+  const auto known = std::count_if(places.begin(), places.end(),
+                                   [&](const auto& place) { return place.first <= enough; });
   verdict.known = static_cast<double>(known) / static_cast<double>(places.size());
   verdict.sure = verdict.known >= area.share;
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [sd, p] : places) {
+    if (static_cast<int>(verdict.next.size()) >= next) break;
+    const bool taken =
+        std::any_of(verdict.next.begin(), verdict.next.end(),
+                    [&](const Eigen::Vector2d& q) { return (q - p).norm() < apart; });
+    if (!taken) verdict.next.push_back(p);
+  }
   return verdict;
 }
 

@@ -70,8 +70,9 @@ std::vector<Eigen::Vector2d> placesOf(const MappedArea& area);
 struct MapVerdict {
   double known = 0;  ///< share of the area whose 95 % interval is within `within` on both sides
   bool sure = false;
-  Eigen::Vector2d next = Eigen::Vector2d::Zero();  ///< the least known place: where to touch next
+  /// Where to touch next: the least known places, none within `apart` of another
+  std::vector<Eigen::Vector2d> next;
 };
-MapVerdict judge(const ObjectMap& map, const MappedArea& area);
+MapVerdict judge(const ObjectMap& map, const MappedArea& area, int next = 1, double apart = 9e-3);
 
 }  // namespace palpa::calibration

@@ -192,7 +192,8 @@ void SetupBench::ask(const Request& request) {
   }
   b.sample.reset();
   b.touched = {};
-  if (request.what == Request::What::press || request.what == Request::What::stroke)
+  if (request.what == Request::What::press || request.what == Request::What::stroke ||
+      request.what == Request::What::palpate)
     b.sample.emplace(b.station, request.sample, b.seed);
   b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t,
                  b.station.sample ? b.station.sample->X_WP : Pose::Identity());
