@@ -121,6 +121,8 @@ LayeredPhantom phantomOf(const JsonFile& one, SoftBlock block, const SurfaceTabl
 
 }  // namespace
 
+bool isLayered(const std::filesystem::path& name) { return JsonFile(name).has("table/sides"); }
+
 LayeredFile readLayered(const std::filesystem::path& name) {
   const JsonFile file(name);
   needKind(file, "layered_phantoms", 1);

@@ -36,6 +36,9 @@ struct RubbingSides {
   double at(double x) const;
 };
 
+/// Whether a file of phantoms is of this kind.
+bool isLayered(const std::filesystem::path& file);
+
 struct LayeredPhantom {
   std::string name;
   SoftBlock block;
