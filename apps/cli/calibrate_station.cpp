@@ -61,7 +61,7 @@ class TerminalGuide final : public Guide {
 station::Station stationOf(const CalibrateOptions& o) {
   const bool of_sample = o.kind == CalibrationKind::material ||
                          o.kind == CalibrationKind::friction ||
-                         o.kind == CalibrationKind::inclusion;
+                         o.kind == CalibrationKind::inclusion || o.kind == CalibrationKind::object;
   return station::readStation(o.station.empty()
                                   ? station::assetFile(of_sample ? "stations/palpation_bench.json"
                                                                  : "stations/virtual_bench.json")
@@ -195,6 +195,13 @@ constexpr Routine kRoutines[] = {
      "  palpa calibrate inclusion --without plain.csv --strokes strokes.csv --above above.csv "
      "--beside beside.csv --check check.csv --depth-mm 15\n"
      "Columns as for material, and lump_x_mm, ...: how far the lump has moved"},
+    {CalibrationKind::object,
+     "What a soft thing is like all over: a map of stiffness and friction, from touching it here "
+     "and there",
+     "Examples:\n  palpa calibrate object --mockup ribs\n      on the virtual palpation bench: a "
+     "simulated hand touches a block with two ribs below, where the map knows least\n"
+     "  palpa calibrate object --touches touches.csv\n"
+     "Columns as for material: touches 3 to 5 mm deep, each pressed, held, slid 10 mm, and lifted"},
     {std::nullopt,
      "Everything, one after the other, with a page that says whether the station is ready",
      "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: "
@@ -239,6 +246,12 @@ void addFiles(CLI::App* command, CalibrateOptions* o) {
     command->add_option("--depth-mm", o->depth_mm, "How deep the lump's middle lies")
         ->check(inRange(1.0, 200.0, "mm"));
     command->add_option("--mockup", o->mockup, "Simulated sample on the virtual bench")
+        ->type_name("NAME");
+  }
+  if (kind == CalibrationKind::object) {
+    file("--touches", &o->touches, "Recorded touches, one after the other");
+    o->mockup = "growing skin";
+    command->add_option("--mockup", o->mockup, "Simulated object on the virtual bench")
         ->type_name("NAME");
   }
   if (kind == CalibrationKind::force_sensor) {

@@ -24,6 +24,7 @@
 #include "apps/twin/feeling_hands.h"
 #include "apps/twin/lump_search.h"
 #include "apps/twin/operator.h"
+#include "apps/twin/phantom/layered_phantom.h"
 #include "apps/twin/phantom/phantom_file.h"
 #include "apps/twin/tracking_model.h"
 #include "ar/boards/board.h"
@@ -227,6 +228,22 @@ std::vector<Kind> materialKinds() {
            },
        // Of the phantoms as they are, with as many cells as these ask for.
        .stricter = {"/made_of.*", "/tables.*", "/pairs.*"},
+       .forgiving = {},
+       .elsewhere = {}},
+      {.name = "layered_phantoms",
+       .samples = {{"phantoms/layered.json", json::object()}},
+       .read = [](const fs::path& file) { twin::readLayered(file); },
+       // The tool stays on the block.
+       .stricter = {"/tool_radius_mm.*", "/block/.*", "/table/.*"},
+       .forgiving = {},
+       .elsewhere = {}},
+      {.name = "layered_tables",
+       .samples = {{"phantoms/layered.tables.json", json::object()}},
+       .read =
+           [](const fs::path& file) {
+             twin::readSolvedLayered(file.parent_path() / "layered.json", file);
+           },
+       .stricter = {"/made_of.*", "/tables.*"},
        .forgiving = {},
        .elsewhere = {}}};
 }
