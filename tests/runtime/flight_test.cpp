@@ -115,9 +115,9 @@ struct Heart {
                bus.task_to_haptic.publish(commands, now);
                haptics::FlightRecord record;
                while (bus.haptic_to_task.pop(&record)) {
-                ++judged;
-                if (unpack(record.f_contact_D).norm() > 0.5) touched = true;
-              }
+                 ++judged;
+                 if (unpack(record.f_contact_D).norm() > 0.5) touched = true;
+               }
                return now + 10 * kMillisecond;
              }),
         watch("watch", [this, last](std::int64_t now) {
