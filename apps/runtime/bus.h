@@ -67,8 +67,8 @@ struct Displayed {
     rougher,
     order,  ///< from the smoothest to the roughest
     pulse_place,
-    pulse_count,                ///< it is counted now
-    pulse_number,               ///< how many beats were counted
+    pulse_count,   ///< it is counted now
+    pulse_number,  ///< how many beats were counted
     pulse_rhythm
   } question = Question::none;  ///< that the screen asks
   int things = 0;               ///< between which one chooses, or that are put in order

@@ -40,8 +40,7 @@ PulseWave waveIn(const JsonFile& file, const std::string& artery) {
   wave.bumps = {bumpIn(file, artery + "/ejection"), bumpIn(file, artery + "/reflection"),
                 bumpIn(file, artery + "/valve")};
   double largest = 0;
-  for (int ms = 0; ms < 700; ++ms)
-    largest = std::max(largest, haptics::pulseWave(wave, kMs * ms));
+  for (int ms = 0; ms < 700; ++ms) largest = std::max(largest, haptics::pulseWave(wave, kMs * ms));
   for (PulseBump& bump : wave.bumps) bump.height /= largest;
   return wave;
 }

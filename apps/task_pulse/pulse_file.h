@@ -16,8 +16,8 @@ namespace palpa::task_pulse {
 /// Of one artery: where it usually lies, and how it feels. Its usual line is y of P through the
 /// middle of the phantom's top.
 struct ArteryFigures {
-  std::string name;  ///< "radial", ...
-  double beside_sd = 0, turned_sd = 0, half_length = 0;  ///< m, rad, m
+  std::string name;                                                 ///< "radial", ...
+  double beside_sd = 0, turned_sd = 0, half_length = 0;             ///< m, rad, m
   double depth = 0, depth_sd = 0, least_depth = 0, most_depth = 0;  ///< m
   double strength_N = 0;  ///< of an ordinary beat right below the surface
   double best_N = 0;      ///< pressed so hard it is felt best
@@ -31,11 +31,11 @@ struct RhythmFigures {
 /// A pulse task as its file says it (assets/tasks/pulse.json).
 struct PulseSettings {
   std::string id, title;
-  station::LumpLibrary library;            ///< its surface is what is pressed
-  Vec3 size = Vec3(0.1, 0.1, 0.05);        ///< m, as it is shown
+  station::LumpLibrary library;      ///< its surface is what is pressed
+  Vec3 size = Vec3(0.1, 0.1, 0.05);  ///< m, as it is shown
   haptics::PulseLaw law;
   std::array<ArteryFigures, haptics::kMostVessels> arteries;
-  std::array<RhythmFigures, 3> rhythms;    ///< by PulseRhythm
+  std::array<RhythmFigures, 3> rhythms;  ///< by PulseRhythm
   HeartFigures heart;
   /// Times the artery's: strength of a patient's pulse, and the pressure at which it is felt best
   double weakest = 0.7, strongest = 1.5, softest = 0.8, hardest = 1.2;

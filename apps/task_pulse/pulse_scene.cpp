@@ -12,8 +12,8 @@ std::string taskText(const PulseStatus& status) {
     case PulsePart::find:
       return "Find the " + status.artery + " pulse, mark it with the button, then D";
     case PulsePart::count:
-      return "Count the beats: " + std::to_string(static_cast<int>(std::ceil(status.count_left_s))) +
-             " s left";
+      return "Count the beats: " +
+             std::to_string(static_cast<int>(std::ceil(status.count_left_s))) + " s left";
     case PulsePart::number:
       return "How many beats? " + status.typed + "_";
     case PulsePart::rhythm:

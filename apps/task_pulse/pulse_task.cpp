@@ -13,15 +13,10 @@ using training::Outcome;
 
 namespace {
 
-constexpr double kLongestGap_s = 0.1;  // longer: it was paused
+constexpr double kLongestGap_s = 0.1;                // longer: it was paused
 constexpr std::int64_t kFirstBeat_ns = 500'000'000;  // after the trial's start
 constexpr std::size_t kMostDigits = 3;
 constexpr int kRhythmCount = 3;
-
-PulsePart partIn(const haptics::TickCommands& commands) {
-  return static_cast<PulsePart>(
-      std::min(commands.subtask, static_cast<std::uint8_t>(PulsePart::rhythm)));
-}
 
 bool isNumber(const std::string& text) {
   return !text.empty() && text.size() <= kMostDigits &&
@@ -29,6 +24,11 @@ bool isNumber(const std::string& text) {
 }
 
 }  // namespace
+
+PulsePart partIn(const haptics::TickCommands& commands) {
+  return static_cast<PulsePart>(
+      std::min(commands.subtask, static_cast<std::uint8_t>(PulsePart::rhythm)));
+}
 
 PulseListener::PulseListener(const haptics::TickConfig& config, const assess::PulseRules& rules)
     : X_PD_(unpack(config.X_DP).inverse()),
@@ -135,9 +135,9 @@ std::string scoreJson(const assess::PulseTrial& trial, const assess::PulseRules&
 
 PulseTask::PulseTask(const PulseTaskSetup& setup, runtime::Bus& bus, PulseChannels& channels,
                      runtime::Executive& executive)
-    : TrialTask({static_cast<int>(setup.cases.size()), setup.automatic, setup.not_scored,
-                 setup.places},
-                bus, channels, executive),
+    : TrialTask(
+          {static_cast<int>(setup.cases.size()), setup.automatic, setup.not_scored, setup.places},
+          bus, channels, executive),
       setup_(setup),
       channels_(channels),
       listener_(setup.tick, setup.settings.rules) {
@@ -158,9 +158,9 @@ runtime::TrialHeader PulseTask::begin(std::int64_t now_ns) {
   typed_.clear();
   said_ = {};
   listener_.begin(static_cast<std::uint32_t>(status().trial));
-  heart_.emplace(Heart(setup_.settings.heart, patient().rhythm, patient().rate_per_min,
-                       patient().heart_seed),
-                 now_ns + kFirstBeat_ns);
+  heart_.emplace(
+      Heart(setup_.settings.heart, patient().rhythm, patient().rate_per_min, patient().heart_seed),
+      now_ns + kFirstBeat_ns);
   beats_ = heart_->at(now_ns);
   const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
   report(now_ns, EventKind::trial_case, caseText(patient()));
@@ -272,8 +272,7 @@ void PulseTask::publishStatus(std::int64_t now_ns) {
   shown_.part = part_;
   if (status().trial > 0) shown_.artery = patient().name;
   shown_.typed = typed_;
-  shown_.count_left_s =
-      std::max(setup_.settings.rules.count_s - listener_.countedSeconds(), 0.0);
+  shown_.count_left_s = std::max(setup_.settings.rules.count_s - listener_.countedSeconds(), 0.0);
   shown_.force_N = listener_.now_N();
   shown_.mark_P = listener_.mark_P();
   static_cast<trial::TrialStatus&>(shown_) = status();

@@ -15,6 +15,8 @@ namespace palpa::task_pulse {
 /// Parts of a trial, in their order; in every tick's commands.
 enum class PulsePart : std::uint8_t { none, find, count, number, rhythm };
 
+PulsePart partIn(const haptics::TickCommands& commands);
+
 /// Makes of the recorded ticks what an examination of a pulse is judged by; the same for a session
 /// and for its replay. Place: the lowest point of the round tip. How hard it is pressed: what the
 /// hand has to hold against along P's z, the real thing and the device together. A mark: button 1
@@ -29,7 +31,7 @@ class PulseListener {
   /// Counts while the trial is on and force may be rendered.
   void add(const haptics::FlightRecord& record);
 
-  double seconds() const { return seconds_; }          ///< of the trial, pauses left out
+  double seconds() const { return seconds_; }  ///< of the trial, pauses left out
   double countedSeconds() const { return counted_s_; }
   double now_N() const { return now_N_; }
   bool touching() const { return now_N_ >= rules_.touch_N; }
@@ -71,7 +73,7 @@ struct CompletedPulse {
 struct PulseStatus : trial::TrialStatus {
   PulsePart part = PulsePart::none;
   std::string artery;
-  std::string typed;       ///< of the number
+  std::string typed;  ///< of the number
   double count_left_s = 0;
   double force_N = 0;
   std::optional<Vec3> mark_P;
@@ -95,7 +97,8 @@ struct PulseTaskSetup {
 };
 
 /// The trials: find it and mark it with the button ("done": the count begins); count, which ends by
-/// itself; the number ("choose": a digit, then "done"; or all of it); the rhythm ("choose": 1 to 3).
+/// itself; the number ("choose": a digit, then "done"; or all of it); the rhythm ("choose": 1 to
+/// 3).
 class PulseTask final : public trial::TrialTask {
  public:
   PulseTask(const PulseTaskSetup& setup, runtime::Bus& bus, PulseChannels& channels,
