@@ -49,7 +49,7 @@ ArteryFigures arteryIn(const JsonFile& file, const char* name) {
   const std::string at = std::string("arteries/") + name + '/';
   ArteryFigures a;
   a.name = name;
-  a.beside_sd = kMm * file.number(at + "beside_sd_mm", 0, 20);
+  a.spread = kMm * file.number(at + "spread_mm", 0, 30);
   a.turned_sd = kDegree * file.number(at + "turned_sd_deg", 0, 30);
   a.half_length = kMm * file.number(at + "half_length_mm", 1, 100);
   a.depth = kMm * file.number(at + "depth_mm", 0, 40);
@@ -171,7 +171,7 @@ std::vector<PulseCase> casesOf(const PulseSettings& settings, std::uint64_t seed
     PulseCase one;
     one.name = figures.name;
     one.artery.vessel = static_cast<std::uint32_t>(v + 1);
-    one.artery.p_P = {random.normal(0, figures.beside_sd), 0, 0};
+    one.artery.p_P = {random.uniform(-figures.spread, figures.spread), 0, 0};
     const double turned = random.normal(0, figures.turned_sd);
     one.artery.a_P = {-pinned::sin(turned), pinned::cos(turned), 0};
     one.artery.half_length = figures.half_length;

@@ -17,7 +17,7 @@ namespace palpa::task_pulse {
 /// middle of the phantom's top.
 struct ArteryFigures {
   std::string name;                                                 ///< "radial", ...
-  double beside_sd = 0, turned_sd = 0, half_length = 0;             ///< m, rad, m
+  double spread = 0, turned_sd = 0, half_length = 0;                ///< m to either side, rad, m
   double depth = 0, depth_sd = 0, least_depth = 0, most_depth = 0;  ///< m
   double strength_N = 0;  ///< of an ordinary beat right below the surface
   double best_N = 0;      ///< pressed so hard it is felt best

@@ -25,6 +25,24 @@ constexpr double kPulseDown = 0.01, kPulseDeepest = 0.012;  // m/s; m: who feels
 constexpr double kPressesAtOnce = 0.01, kPressesOn = 0.001;
 constexpr double kTriedPressures[] = {0.8, 1.0, 1.25, 1.5};  // times the first one
 
+/// A place where beats were waited for, m across, and how strong they were, N.
+struct FeltPlace {
+  double x = 0, beat_N = 0;
+};
+
+/// Where they were strongest: the middle of all places with more than half of the most, weighted by
+/// the squares of what was felt, since no single place is sure.
+double strongestPlace(const std::vector<FeltPlace>& places) {
+  double most = 0, sum = 0, weight = 0;
+  for (const FeltPlace& place : places) most = std::max(most, place.beat_N);
+  for (const FeltPlace& place : places) {
+    if (place.beat_N <= 0.5 * most) continue;
+    weight += place.beat_N * place.beat_N;
+    sum += place.beat_N * place.beat_N * place.x;
+  }
+  return weight > 0 ? sum / weight : 0;
+}
+
 /// Places from the middle outward, to either side in turn, m.
 std::vector<double> placesAcross(double step, double reach) {
   std::vector<double> places{0};
@@ -109,8 +127,8 @@ class PulseHand final : public Hand {
     at_place_ = 0;
     x_ = places_.front();
     want_N_ = best_N_ = skill_.press;
-    best_x_ = 0;
     best_beat_N_ = 0;
+    felt_.clear();
     tried_ = 0;
     counted_ = 0;
     beats_s_.clear();
@@ -196,21 +214,21 @@ class PulseHand final : public Hand {
 
   /// What a place or a pressure felt like; then the next, or on with the best.
   void heard(double now_s) {
-    if (const double beat_N = sense_.usual(); beat_N > best_beat_N_) {
-      best_beat_N_ = beat_N;
-      best_x_ = x_;
-      best_N_ = want_N_;
-    }
+    const double beat_N = sense_.usual();
     if (aim_ == PulseAim::place) {
+      felt_.push_back({x_, beat_N});
       if (++at_place_ < places_.size()) {
         x_ = places_[at_place_];
         return go(PulseStep::lift, now_s);
       }
-      x_ = best_x_;
-      best_beat_N_ = 0;
+      x_ = strongestPlace(felt_);
       aim_ = skill_.adjusts ? PulseAim::pressure : PulseAim::count;
       want_N_ = skill_.adjusts ? kTriedPressures[0] * skill_.press : skill_.press;
       return go(PulseStep::lift, now_s);
+    }
+    if (beat_N > best_beat_N_) {
+      best_beat_N_ = beat_N;
+      best_N_ = want_N_;
     }
     if (++tried_ < std::size(kTriedPressures)) {
       want_N_ = kTriedPressures[tried_] * skill_.press;
@@ -265,7 +283,8 @@ class PulseHand final : public Hand {
   Vec3 at_P_ = Vec3::Zero(), from_P_ = Vec3::Zero();  ///< where the tip is wanted; a step began
   int trial_ = 0, typed_trial_ = 0;
   std::size_t at_place_ = 0, tried_ = 0;
-  double x_ = 0, best_x_ = 0;       ///< m
+  double x_ = 0;  ///< m, across: where it presses
+  std::vector<FeltPlace> felt_;
   double want_N_ = 0, best_N_ = 0;  ///< pressures
   double best_beat_N_ = 0;          ///< the strongest so far
   int counted_ = 0;

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "anatomy/base/enum_names.h"
-#include "anatomy/base/text_forms.h"
 
 namespace palpa::assess {
 namespace {
@@ -18,18 +17,24 @@ const EnumNames<PulseRhythm>& rhythmNames() {
 constexpr double kMinute_s = 60;
 constexpr double kNotFelt_pct = 10;  // of the counted time
 
+std::string rounded(double value, int digits = 0) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
 double aMinute(int beats, const PulseRules& rules) { return beats * kMinute_s / rules.count_s; }
 
 std::string foundText(const PulseTrial& trial, const PulseRules& rules) {
   if (!trial.off_m) return "No place was marked";
-  return (trial.found(rules) ? "Found (" : "Not found (marked ") + fixed(1e3 * *trial.off_m, 0) +
+  return (trial.found(rules) ? "Found (" : "Not found (marked ") + rounded(1e3 * *trial.off_m) +
          " mm beside it)";
 }
 
 std::string countText(const PulseTrial& trial, const PulseRules& rules) {
   if (!trial.delivered) return "not counted to the end";
-  const std::string delivered = fixed(aMinute(*trial.delivered, rules), 0) + " a minute delivered";
-  return trial.counted ? fixed(aMinute(*trial.counted, rules), 0) + " counted, " + delivered
+  const std::string delivered = rounded(aMinute(*trial.delivered, rules)) + " a minute delivered";
+  return trial.counted ? rounded(aMinute(*trial.counted, rules)) + " counted, " + delivered
                        : "no number was said, " + delivered;
 }
 
@@ -91,20 +96,20 @@ std::vector<PulseItem> pulseChecklist(const PulseTrial& trial, const PulseRules&
   const auto seen = [](bool known, const std::string& what) {
     return known ? what : std::string("it was not counted");
   };
-  return {{"The pulse was found", trial.found(rules), foundText(trial, rules)},
-          {"It was never pressed too hard", trial.peak_N <= rules.too_hard_N,
-           "pressed up to " + fixed(trial.peak_N, 1) + " N"},
-          {"The finger stayed on it while counting",
-           trial.delivered && trial.off_line_pct <= kNotFelt_pct,
-           seen(trial.delivered.has_value(),
-                "off the surface for " + fixed(trial.off_line_pct, 0) + " % of the time")},
-          {"The artery was not pressed shut while counting",
-           trial.delivered && trial.shut_pct <= rules.most_pressed_pct,
-           seen(trial.delivered.has_value(),
-                "shut for " + fixed(trial.shut_pct, 0) + " % of the time")},
-          {"It was counted right", trial.counts(rules), countText(trial, rules)},
-          {"The rhythm was named right", trial.told(), rhythmText(trial)},
-          {"It was done in time", trial.answered(), fixed(trial.seconds, 0) + " s"}};
+  return {
+      {"The pulse was found", trial.found(rules), foundText(trial, rules)},
+      {"It was never pressed too hard", trial.peak_N <= rules.too_hard_N,
+       "pressed up to " + rounded(trial.peak_N, 1) + " N"},
+      {"The finger stayed on it while counting",
+       trial.delivered && trial.off_line_pct <= kNotFelt_pct,
+       seen(trial.delivered.has_value(),
+            "off the surface for " + rounded(trial.off_line_pct) + " % of the time")},
+      {"The artery was not pressed shut while counting",
+       trial.delivered && trial.shut_pct <= rules.most_pressed_pct,
+       seen(trial.delivered.has_value(), "shut for " + rounded(trial.shut_pct) + " % of the time")},
+      {"It was counted right", trial.counts(rules), countText(trial, rules)},
+      {"The rhythm was named right", trial.told(), rhythmText(trial)},
+      {"It was done in time", trial.answered(), rounded(trial.seconds) + " s"}};
 }
 
 std::vector<metrics::MetricValue> pulseMetrics(const PulseTrial& t, const PulseRules& rules) {

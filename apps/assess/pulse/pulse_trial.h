@@ -23,7 +23,7 @@ const char* wordsOf(PulseRhythm rhythm);
 
 /// What a task's file says of how a pulse is judged.
 struct PulseRules {
-  double found_within_m = 0.008;  ///< of the artery's line
+  double found_within_m = 0.006;  ///< of the artery's line
   double count_within = 3;        ///< beats a minute
   double count_s = 30;            ///< so long is counted
   double touch_N = 0.1;           ///< from here on it is touched
