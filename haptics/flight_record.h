@@ -22,6 +22,30 @@ struct PlacedLump {
 using PlacedLumps = std::array<PlacedLump, kMostLumps>;
 static_assert(std::is_trivially_copyable_v<PlacedLumps>);
 
+inline constexpr int kMostVessels = 3, kMostBeats = 4;
+
+/// A beat of an artery: when its wave begins under the finger, session time, and how strong it is,
+/// times an ordinary one; 0: there is none.
+struct PulseBeat {
+  std::int64_t start_ns = 0;
+  double strength = 0;
+};
+
+/// An artery that is not there, below a real surface: a straight piece of it, and its beats as they
+/// are known in this tick, those whose waves go on and those to come.
+struct PulsingArtery {
+  Packed3 p_P{};             ///< m, the middle of its line, on the surface
+  Packed3 a_P{};             ///< unit, along it
+  double half_length = 0;    ///< m
+  double depth = 0;          ///< m, of its middle line below the surface at rest
+  double strength_N = 0;     ///< of an ordinary beat where the artery lies right below a still tool
+  double best_N = 0;         ///< pressed so hard it is felt best
+  std::uint32_t vessel = 0;  ///< 1 to kMostVessels: whose wave; else there is none
+  std::uint32_t reserved = 0;
+  std::array<PulseBeat, kMostBeats> beats{};
+};
+static_assert(std::is_trivially_copyable_v<PulsingArtery>);
+
 /// Where the needle is in the manoeuvre, as the contact model knows it.
 enum class NeedlePhase : std::uint8_t { outside, indenting, inserted };
 
@@ -78,6 +102,7 @@ struct TickCommands {
   std::uint8_t augmented = 0;      ///< 1: the session's augmentations may add force
   std::uint8_t asked = 0;          ///< the trial waits for an answer
   Packed3 line_p_D{}, line_a_D{};  ///< m; unit: a line for virtual fixtures; direction 0: none
+  PulsingArtery artery;            ///< of this trial
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);
 static_assert(offsetof(TickCommands, lumps) == offsetof(TickCommands, friction) + sizeof(float));
@@ -144,7 +169,7 @@ struct FlightRecord {
   std::uint8_t augmenting = 0;      ///< bit i: augmentation i adds force
   std::uint8_t began = 0;           ///< bit i: it was triggered in this tick
   std::uint8_t reserved[7]{};       ///< or the same tick would have other bytes
-  Packed3 f_augmentation_D{};       ///< of all augmentations, as computed; in `f_wanted_D`
+  Packed3 f_augmentation_D{};  ///< all augmentations and the pulse, as computed; in `f_wanted_D`
 };
 static_assert(std::is_trivially_copyable_v<FlightRecord>);
 

@@ -11,6 +11,7 @@
 #include "calibration/contact_laws.h"
 #include "haptics/materials/force_laws.h"
 #include "haptics/modulation/modulation.h"
+#include "haptics/modulation/pulse.h"
 #include "haptics/modulation/touch_augmentation.h"
 
 namespace palpa::bench {
@@ -138,6 +139,21 @@ struct HandCase {
   Noise noise = Noise::low_passed;
 };
 HandFigures handFigures(const twin::PhantomTwin& phantom, const HandCase& one);
+
+/// A pulse under a tool that a hand with a device presses steadily onto a simulated phantom: the
+/// hand's force f, against f_s, where the same source acts on the same tool by itself, at its true
+/// place and pressure, without sensor, loop and drives; f_0: without any pulse:
+///     rms(f - f_s) / rms(f_s - f_0)   along the normal
+struct PulseCase {
+  twin::DeviceTruth truth;
+  twin::HandGrip grip;
+  haptics::TouchAugmentation law;
+  haptics::PulseLaw pulse;
+  haptics::PulsingArtery artery;  ///< beats once a second
+  double beside = 0;              ///< m, of the tool from the artery's line
+  Noise noise = Noise::kalman;
+};
+double pulseError(const twin::PhantomTwin& phantom, PulseCase one);
 
 /// The devices that are judged, and the hands at the ends of the published range: pen grips of 0.05
 /// to 0.2 kg, 2 to 10 N s/m, 100 to 1000 N/m.

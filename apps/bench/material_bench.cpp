@@ -8,6 +8,7 @@
 #include "apps/bench/contact_study.h"
 #include "apps/bench/timing.h"
 #include "apps/station/assets.h"
+#include "apps/task_pulse/pulse_file.h"
 
 namespace palpa::bench {
 namespace {
@@ -89,6 +90,38 @@ void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
   }
 }
 
+/// Every artery of the shipped task, on it and beside it, with the hand of the middle of the
+/// published range. Where there was no noise they are felt through the low-pass, for a hand always
+/// feels through something.
+void benchPulse(const twin::PhantomTwin& plain, const KnownPhantom& known, Noise identified) {
+  const Noise noise = identified == Noise::none ? Noise::low_passed : identified;
+  const task_pulse::PulseSettings task =
+      task_pulse::readPulse(station::assetFile("tasks/pulse.json"));
+  for (std::size_t i = 0; i < task.arteries.size(); ++i) {
+    const task_pulse::ArteryFigures& figures = task.arteries[i];
+    PulseCase one;
+    one.truth = judgedDevices().front().truth;
+    one.grip = {500, 6, 0.1};
+    one.noise = noise;
+    one.law.surface = {feelingOf(known, 0.1), known.friction.law};
+    one.pulse = task.law;
+    one.artery.a_P = {0, 1, 0};
+    one.artery.half_length = figures.half_length;
+    one.artery.depth = figures.depth;
+    one.artery.strength_N = figures.strength_N;
+    one.artery.best_N = figures.best_N;
+    one.artery.vessel = static_cast<std::uint32_t>(i + 1);
+    for (const double beside_mm : {0.0, 3.0}) {
+      one.beside = 1e-3 * beside_mm;
+      nlohmann::json params = paramsOf(noise);
+      params["artery"] = figures.name;
+      params["beside_mm"] = beside_mm;
+      params["hands"] = 1;
+      print("pulse_rel_rms", pulseError(plain, one), "1", params);
+    }
+  }
+}
+
 /// The worst hand for every device and modulation.
 class WorstHands {
  public:
@@ -151,6 +184,7 @@ void benchMaterial(const MaterialBenchOptions& options) {
     const KnownPhantom known = identifyPhantom(plain, noise);
     benchContact(phantoms.front(), known, noise);
     benchSqueeze(phantoms.front().table, known.contact, noise);
+    if (noise != Noise::low_passed) benchPulse(plain, known, noise);
     if (noise != Noise::low_passed)
       benchHands(phantoms, known, options.quick ? ringingHands() : judgedHands(), noise);
     benchLumps(phantoms, known, noise, options.quick ? 3 : phantoms.size());

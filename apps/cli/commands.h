@@ -20,6 +20,7 @@ void addParacentesis(CLI::App& program);
 void addPalpation(CLI::App& program);
 void addSqueeze(CLI::App& program);
 void addFriction(CLI::App& program);
+void addPulse(CLI::App& program);
 void addSearch(CLI::App& program);
 void addTrain(CLI::App& program);  ///< any of them, by the task file
 void addReplay(CLI::App& program);

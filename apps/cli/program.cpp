@@ -50,6 +50,7 @@ void addCommands(CLI::App& program) {
   addPalpation(program);
   addSqueeze(program);
   addFriction(program);
+  addPulse(program);
   addSearch(program);
   addTrain(program);
   addReplay(program);

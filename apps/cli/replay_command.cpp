@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/cli/commands.h"
@@ -104,6 +105,14 @@ Likeness comparisonScores(const record::SessionReader& reader) {
   });
 }
 
+Likeness pulseScores(const record::SessionReader& reader) {
+  const assess::PulseRules rules =
+      task_pulse::rulesIn(JsonFile::ofText(reader.info().task_json, "the recorded task"));
+  return scoresAgain("Trial", evidence::recordedPulses(reader), [&rules](const auto& trial) {
+    return std::pair(summaryOf(trial.again, rules), task_pulse::scoreJson(trial.again, rules));
+  });
+}
+
 Likeness searchScores(const record::SessionReader& reader) {
   return scoresAgain("Episode", evidence::recordedSearches(reader), [](const auto& trial) {
     return std::pair(summaryOf(trial.again), task_search::scoreJson(trial.again));
@@ -119,6 +128,8 @@ Likeness scoresOf(const record::SessionReader& reader, const std::string& file) 
     case Engine::squeeze:
     case Engine::friction:
       return comparisonScores(reader);
+    case Engine::pulse:
+      return pulseScores(reader);
     case Engine::needle:
       break;
   }

@@ -235,7 +235,7 @@ void addPageArguments(CLI::App& command, ReportOptions& o) {
   addRecordsArgument(command, o.url);
   command.add_option("--task", o.choice.task,
                      "Only trials of this command: paracentesis, palpation, search, squeeze, "
-                     "friction");
+                     "friction, pulse");
   command
       .add_option("--acceptable", o.rates.acceptable,
                   "Failure rate that is acceptable; the educator's choice, none is established "

@@ -169,6 +169,35 @@ void addFriction(CLI::App& program) {
 
 namespace {
 
+constexpr const char* kPulseExamples = R"(Examples:
+  palpa pulse --operator expert --fast --trials 6 --out A
+      a simulated examiner finds pulses on silicone, counts them for 30 seconds and names their rhythm; open A/report.html
+  palpa pulse --operator novice --fast --trials 6
+      one who presses too hard and feels less
+  palpa pulse --operator expert --fast --force-feedback off
+      the same without force feedback: nothing beats, and what is said is a guess
+  palpa pulse --station my_station.json --trials 6
+      you, on a station with a haptic device and a force sensor
+Press lightly across the artery's usual line, from the middle outward; hold still on the pulse and press the device's button: that marks it, the last mark counts. D: the count begins, and ends by itself after 30 seconds. Type the number of beats, then D. Then the rhythm: 1 regular, 2 regular with premature beats, 3 irregular.
+Keys: Enter start or continue, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+
+}  // namespace
+
+void addPulse(CLI::App& program) {
+  const auto options = std::make_shared<session::SessionOptions>();
+  options->command = "pulse";
+  CLI::App* command = program.add_subcommand(
+      "pulse", "A training session: find a pulse by feel, count it, name its rhythm");
+  command->footer(kPulseExamples);
+  command->add_option("--task", options->task, "Task file (default: the shipped one)")
+      ->type_name("FILE")
+      ->check(somethingThere("tasks"));
+  addRunArguments(*command, *options);
+  command->callback([options] { session::holdPulse(*options); });
+}
+
+namespace {
+
 constexpr const char* kSearchExamples = R"(Examples:
   palpa search --operator expert --mode all --trials 8 --fast --out A
       a simulated person searches the same floors with full stiffness, with a fifth of it, and with that augmented; open A/report.html

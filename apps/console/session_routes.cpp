@@ -102,6 +102,8 @@ constexpr EngineOptions kKinds[] = {
     {Engine::search, "Find the rough one of three hidden discs by feel.", false, false},
     {Engine::friction, "Stroke over one surface, then over another: which is rougher?", false,
      false},
+    {Engine::pulse, "Find a pulse by feel, count it for 30 seconds and name its rhythm.", false,
+     false},
 };
 
 const EngineOptions& kindOf(Engine engine) {

@@ -9,12 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/assess/comparison/comparison_trial.h"
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/needle_metrics.h"
 #include "apps/assess/palpation/palpation_assessment.h"
+#include "apps/assess/pulse/pulse_trial.h"
 #include "apps/assess/search/search_trial.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
@@ -65,6 +67,13 @@ Figures figuresIn(const record::SessionReader& reader, const std::filesystem::pa
       return figuresOf(recordedComparisons(reader), [](const RecordedComparison& t) {
         return assess::comparisonMetrics(t.again);
       });
+    case Engine::pulse: {
+      const assess::PulseRules rules =
+          task_pulse::rulesIn(JsonFile::ofText(reader.info().task_json, "the recorded task"));
+      return figuresOf(recordedPulses(reader), [&rules](const RecordedPulse& t) {
+        return assess::pulseMetrics(t.again, rules);
+      });
+    }
     case Engine::needle:
       break;
   }

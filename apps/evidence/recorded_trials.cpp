@@ -276,4 +276,50 @@ std::vector<RecordedComparison> recordedComparisons(const record::SessionReader&
   return trials;
 }
 
+namespace {
+
+/// What the record says of a trial besides its ticks.
+struct SaidOfPulse {
+  task_pulse::PulseCase patient;
+  task_pulse::PulseAnswer answer;
+};
+
+SaidOfPulse saidOfPulse(const std::vector<runtime::Event>& events, int trial) {
+  SaidOfPulse said;
+  for (const runtime::Event& event : events) {
+    if (event.trial != trial) continue;
+    if (event.is(EventKind::trial_case)) said.patient = task_pulse::caseIn(event.text);
+    if (event.is(EventKind::answer)) said.answer.add(event.value);
+  }
+  return said;
+}
+
+}  // namespace
+
+std::vector<RecordedPulse> recordedPulses(const record::SessionReader& reader) {
+  const bool simulated = fieldOf(reader.info().session_json, "simulated", true, "its session");
+  task_pulse::PulseListener listener(
+      reader.info().tick_config,
+      task_pulse::rulesIn(JsonFile::ofText(reader.info().task_json, "the recorded task")));
+  const std::vector<runtime::Event> events = reader.events();
+  std::vector<RecordedPulse> trials;
+  const auto begin = [&](const record::RecordedTrial& trial) {
+    listener.begin(static_cast<std::uint32_t>(trial.header.trial));
+  };
+  const auto tick = [&](const haptics::FlightRecord& record) { listener.add(record); };
+  const auto finish = [&](const record::RecordedTrial& trial) {
+    const SaidOfPulse said = saidOfPulse(events, trial.header.trial);
+    assess::PulseTrial facts;
+    facts.trial = trial.header.trial;
+    facts.role = training::roleNamed(trial.header.role);
+    facts.simulated = simulated;
+    facts.force_feedback = trial.header.force_feedback;
+    facts.seed = trial.header.seed;
+    facts.outcome = training::outcomeNamed(trial.end.outcome);
+    trials.push_back({trial, task_pulse::judged(facts, said.patient, listener, said.answer)});
+  };
+  record::walkTrials(reader, reader.trials(), {begin, tick, finish});
+  return trials;
+}
+
 }  // namespace palpa::evidence

@@ -6,6 +6,7 @@
 #include "apps/record/session_file.h"
 #include "apps/task_comparison/comparison_task.h"
 #include "apps/task_palpation/palpation_task.h"
+#include "apps/task_pulse/pulse_task.h"
 #include "apps/task_search/search_task.h"
 #include "apps/training/engine.h"
 
@@ -50,5 +51,13 @@ struct RecordedComparison {
 /// Every trial of a comparison session judged again, from the evidence alone. Throws Error for a
 /// record whose parts contradict each other.
 std::vector<RecordedComparison> recordedComparisons(const record::SessionReader& reader);
+
+struct RecordedPulse {
+  record::RecordedTrial recorded;
+  assess::PulseTrial again;  ///< from the ticks and what was said
+};
+/// Every trial of a pulse session judged again, from the evidence alone. Throws Error for a record
+/// whose parts contradict each other.
+std::vector<RecordedPulse> recordedPulses(const record::SessionReader& reader);
 
 }  // namespace palpa::evidence

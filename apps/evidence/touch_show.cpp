@@ -38,7 +38,7 @@ class Marks {
     if (event.is(EventKind::safety) || event.is(EventKind::emergency_stop))
       return scene::TickTone::bad;
     if (event.is(EventKind::mark) || event.is(EventKind::let_go) || event.is(EventKind::thing) ||
-        event.is(EventKind::answer))
+        event.is(EventKind::answer) || event.is(EventKind::phase))
       return scene::TickTone::guide;
     if (event.is(EventKind::pause) || event.is(EventKind::resume)) return scene::TickTone::neutral;
     return std::nullopt;
@@ -170,6 +170,26 @@ class SearchShow final : public TouchShow<replay::ShownSearch> {
   }
 };
 
+class PulseShow final : public TouchShow<replay::ShownPulse> {
+ public:
+  PulseShow(const std::filesystem::path& file, int number) : TouchShow(file, number) {
+    const JsonFile json = task();
+    trial_.X_AD = anatomy::X_AP() * unpack(config().X_DP).inverse();
+    trial_.patient = task_pulse::caseIn(eventText(EventKind::trial_case));
+    shown_ = anatomy::phantomBlock(1e-3 * Vec3(json.number("phantom/across_mm", 10, 500),
+                                               json.number("phantom/away_mm", 10, 500),
+                                               json.number("phantom/high_mm", 5, 300)),
+                                   "phantom");
+    replay::PulseReader reader(config(), task_pulse::rulesIn(json), trial_.number);
+    receive(reader, [&] { return lastOf(reader.moments()); });
+    trial_.moments = reader.moments();
+    need(!trial_.moments.empty());
+  }
+  std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) override {
+    return replay::pulseReplay(trial_, view);
+  }
+};
+
 /// Something held by two tools, or stroked by one.
 class ComparisonShow final : public TouchShow<replay::ShownComparison> {
  public:
@@ -221,6 +241,7 @@ std::unique_ptr<RecordedShow> recordedTouch(const std::filesystem::path& file, E
                                             int number) {
   if (engine == Engine::palpation) return std::make_unique<PalpationShow>(file, number);
   if (engine == Engine::search) return std::make_unique<SearchShow>(file, number);
+  if (engine == Engine::pulse) return std::make_unique<PulseShow>(file, number);
   return std::make_unique<ComparisonShow>(file, number, engine);
 }
 

@@ -38,6 +38,44 @@ json kindsOf(const haptics::TouchAugmentation& touch) {
   return kinds;
 }
 
+json pulseOf(const haptics::PulseLaw& law) {
+  json waves = json::array();
+  for (const haptics::PulseWave& wave : law.waves) {
+    json bumps = json::array();
+    for (const haptics::PulseBump& bump : wave.bumps)
+      bumps.push_back({{"start_s", bump.start_s},
+                       {"peak_s", bump.peak_s},
+                       {"end_s", bump.end_s},
+                       {"height", bump.height}});
+    waves.push_back(bumps);
+  }
+  return {{"waves", waves},
+          {"contact_radius_m", law.contact_radius},
+          {"closed_at", law.closed_at},
+          {"light_N", law.light_N},
+          {"press_tau_s", law.press_tau},
+          {"largest_N", law.largest_N}};
+}
+
+json jsonOf(const haptics::PulsingArtery& artery) {
+  return {{"vessel", artery.vessel}, {"p_P_m", artery.p_P},
+          {"a_P", artery.a_P},       {"half_length_m", artery.half_length},
+          {"depth_m", artery.depth}, {"strength_N", artery.strength_N},
+          {"best_N", artery.best_N}};
+}
+
+/// Of each trial that has one, as its first tick has it.
+json arteriesOf(const SessionReader& reader) {
+  std::map<std::uint32_t, haptics::PulsingArtery> trials;
+  reader.ticks([&](const haptics::FlightRecord& record) {
+    trials.emplace(record.commands.trial, record.commands.artery);
+  });
+  json all = json::object();
+  for (const auto& [trial, artery] : trials)
+    if (trial > 0 && artery.vessel > 0) all[std::to_string(trial)] = jsonOf(artery);
+  return all;
+}
+
 /// Of each trial as its first tick has them.
 json lumpsOf(const SessionReader& reader) {
   std::map<std::uint32_t, haptics::PlacedLumps> trials;
@@ -71,6 +109,10 @@ std::string lawsJson(const SessionReader& reader) {
             {"surface", surfaceOf(config.touch)},
             {"kinds", kindsOf(config.touch)},
             {"lumps", lumpsOf(reader)}};
+  if (json arteries = arteriesOf(reader); !arteries.empty()) {
+    laws["pulse"] = pulseOf(config.pulse);
+    laws["arteries"] = std::move(arteries);
+  }
   if (pair) laws["X_DP"].push_back(jsonOf(pair->tools[1].X_DP));
   if (pair && pair->squeezing)
     laws["squeeze"] = {{"H", jsonOf(pair->squeeze.real)},

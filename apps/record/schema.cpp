@@ -78,8 +78,9 @@ std::string layoutText() {
   const char* order = std::endian::native == std::endian::little ? "little-endian" : "big-endian";
   return "layout " + std::to_string(kLayoutVersion) + ", " + order +
          sized<FlightRecord>("FlightRecord") + sized<DeviceReading>("DeviceReading") +
-         sized<TickCommands>("TickCommands") + sized<LocalGeometry>("LocalGeometry") +
-         sized<Capsule>("Capsule") + sized<Boundary>("Boundary") + sized<TickState>("TickState") +
+         sized<TickCommands>("TickCommands") + sized<PulsingArtery>("PulsingArtery") +
+         sized<LocalGeometry>("LocalGeometry") + sized<Capsule>("Capsule") +
+         sized<Boundary>("Boundary") + sized<TickState>("TickState") +
          sized<NeedleState>("NeedleState") + sized<SafetyState>("SafetyState") +
          sized<TickConfig>("TickConfig") + sized<PairConfig>("PairConfig") +
          sized<NeedleMaterials>("NeedleMaterials") + sized<SafetyLimits>("SafetyLimits");

@@ -168,6 +168,19 @@ void addCommands(std::vector<ExportColumn>& columns) {
   columns.push_back(
       {{"friction", "times as rough as the touched surface is; 1 where friction is not changed"},
        [](const FlightRecord& r) { return shortest(static_cast<double>(r.commands.friction)); }});
+  columns.push_back(
+      {{"vessel", "of the pulse under the tool, as laws.json numbers them; 0: none"},
+       [](const FlightRecord& r) { return std::to_string(r.commands.artery.vessel); }});
+  for (std::size_t i = 0; i < haptics::kMostBeats; ++i) {
+    const std::string beat = "beat_" + std::to_string(i + 1);
+    columns.push_back(
+        {{beat + "_ns", "session time at which its wave begins"}, [i](const FlightRecord& r) {
+           return std::to_string(r.commands.artery.beats[i].start_ns);
+         }});
+    columns.push_back(
+        {{beat + "_strength", "in ordinary beats; 0: there is none"},
+         [i](const FlightRecord& r) { return shortest(r.commands.artery.beats[i].strength); }});
+  }
   columns.push_back({{"floor", "number of the floor that is searched; 0: none"},
                      [](const FlightRecord& r) { return std::to_string(r.commands.floor); }});
   columns.push_back({{"degraded", "1: the floor with the lesser gains"},
@@ -226,7 +239,8 @@ void addSensed(std::vector<ExportColumn>& columns) {
 
 /// What was added to it all, by which of the task's augmentations, in which of its parts.
 void addCues(std::vector<ExportColumn>& columns) {
-  addVector(columns, "f_augmentation_D", "N", "of all augmentations together, device base",
+  addVector(columns, "f_augmentation_D", "N",
+            "of all augmentations and the pulse together, device base",
             &FlightRecord::f_augmentation_D);
   columns.push_back({{"parts", "bits of the task's parts that are on, in its file's order"},
                      [](const FlightRecord& r) { return std::to_string(r.subtasks); }});

@@ -1,8 +1,11 @@
 #include "apps/replay/touch_replay.h"
 
+#include <algorithm>
+
 #include "anatomy/parametric/phantoms.h"
 #include "apps/task_comparison/comparison_scene.h"
 #include "apps/task_palpation/palpation_scene.h"
+#include "apps/task_pulse/pulse_scene.h"
 #include "apps/task_search/search_scene.h"
 
 namespace palpa::replay {
@@ -201,6 +204,61 @@ void ComparisonReader::add(const haptics::FlightRecord& record) {
 std::unique_ptr<TrialReplay> comparisonReplay(const ShownComparison& trial,
                                               scene::SceneView& view) {
   return std::make_unique<ComparisonReplay>(trial, view);
+}
+
+namespace {
+
+class PulseReplay final : public TrialReplay {
+ public:
+  PulseReplay(const ShownPulse& trial, scene::SceneView& view)
+      : TrialReplay(trial, trial.length_s()),
+        recorded_(trial),
+        scene_({stage(view), anatomy::X_AP()}, bus_, channels_) {}
+
+ private:
+  void showAt(double t_s, std::int64_t now_ns) override {
+    const PulseMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
+    task_pulse::PulseStatus status;
+    fill(status, t_s);
+    status.part = moment.part;
+    status.artery = recorded_.patient.name;
+    status.count_left_s = moment.count_left_s;
+    status.force_N = moment.force_N;
+    status.mark_P = moment.mark_P;
+    bus_.haptic_to_scene.publish(moment.tool, now_ns);
+    channels_.status_to_scene.publish(status, now_ns);
+  }
+
+  trial::TrialScene& scene() override { return scene_; }
+
+  const ShownPulse& recorded_;
+  task_pulse::PulseChannels channels_{runtime::TimeMode::virtual_time};
+  task_pulse::PulseScene scene_;
+};
+
+}  // namespace
+
+PulseReader::PulseReader(const haptics::TickConfig& config, const assess::PulseRules& rules,
+                         int trial)
+    : X_ET_(unpack(config.X_ET)),
+      count_s_(rules.count_s),
+      listener_(config, rules),
+      trial_(static_cast<std::uint32_t>(trial)) {
+  listener_.begin(trial_);
+}
+
+void PulseReader::add(const haptics::FlightRecord& record) {
+  if (record.commands.trial != trial_ || !record.commands.armed) return;
+  listener_.add(record);
+  const double t_s = listener_.seconds();
+  if (!moments_.empty() && t_s - moments_.back().t_s < kMomentStep - 1e-9) return;
+  moments_.push_back({t_s, toolIn(record, X_ET_), task_pulse::partIn(record.commands),
+                      listener_.now_N(), std::max(count_s_ - listener_.countedSeconds(), 0.0),
+                      listener_.mark_P()});
+}
+
+std::unique_ptr<TrialReplay> pulseReplay(const ShownPulse& trial, scene::SceneView& view) {
+  return std::make_unique<PulseReplay>(trial, view);
 }
 
 }  // namespace palpa::replay

@@ -8,6 +8,7 @@
 #include "apps/replay/trial_replay.h"
 #include "apps/task_comparison/comparison_task.h"
 #include "apps/task_palpation/palpation_task.h"
+#include "apps/task_pulse/pulse_task.h"
 #include "apps/task_search/search_task.h"
 
 namespace palpa::replay {
@@ -122,5 +123,38 @@ class ComparisonReader {
 
 /// The trial and the view outlive what is answered.
 std::unique_ptr<TrialReplay> comparisonReplay(const ShownComparison& trial, scene::SceneView& view);
+
+struct PulseMoment {
+  double t_s = 0;  ///< since the trial's start; pauses do not count
+  runtime::ToolState tool;
+  task_pulse::PulsePart part = task_pulse::PulsePart::none;
+  double force_N = 0, count_left_s = 0;
+  std::optional<Vec3> mark_P;
+};
+
+/// A recorded examination of a pulse, ready to be shown at any moment.
+struct ShownPulse : ShownTrial {
+  task_pulse::PulseCase patient;
+  std::vector<PulseMoment> moments;  ///< not empty
+  double length_s() const { return moments.back().t_s; }
+};
+
+/// Takes a session's ticks in their order and keeps of one trial a moment every 4 ms.
+class PulseReader {
+ public:
+  PulseReader(const haptics::TickConfig& config, const assess::PulseRules& rules, int trial);
+  void add(const haptics::FlightRecord& record);
+  const std::vector<PulseMoment>& moments() const { return moments_; }
+
+ private:
+  Pose X_ET_;
+  double count_s_;
+  task_pulse::PulseListener listener_;
+  std::uint32_t trial_;
+  std::vector<PulseMoment> moments_;
+};
+
+/// The trial and the view outlive what is answered.
+std::unique_ptr<TrialReplay> pulseReplay(const ShownPulse& trial, scene::SceneView& view);
 
 }  // namespace palpa::replay

@@ -65,7 +65,11 @@ struct Displayed {
     heavier,
     aspirated,
     rougher,
-    order                       ///< from the smoothest to the roughest
+    order,  ///< from the smoothest to the roughest
+    pulse_place,
+    pulse_count,   ///< it is counted now
+    pulse_number,  ///< how many beats were counted
+    pulse_rhythm
   } question = Question::none;  ///< that the screen asks
   int things = 0;               ///< between which one chooses, or that are put in order
 };

@@ -16,6 +16,7 @@
 #include "apps/session/comparison_session.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/palpation_session.h"
+#include "apps/session/pulse_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_facts.h"
 #include "apps/session/session_records.h"
@@ -227,6 +228,14 @@ void writeReportOf(const LeftSession& session, const std::string& made) {
           head,
           endedOnes<task_comparison::CompletedComparison>(
               evidence::recordedComparisons(session.reader), &evidence::RecordedComparison::again),
+          tail, session.evidence);
+    case Engine::pulse:
+      return writePulseResults(
+          head,
+          endedOnes<task_pulse::CompletedPulse>(evidence::recordedPulses(session.reader),
+                                                &evidence::RecordedPulse::again),
+          task_pulse::rulesIn(
+              JsonFile::ofText(session.reader.info().task_json, "the recorded task")),
           tail, session.evidence);
   }
 }

@@ -51,7 +51,7 @@ void handleKeys(const scene::ViewInput& input, trial::Channels& channels,
       send(channels, UserCommand::quit);
     else if (key == "d" || key == "D")
       send(channels, UserCommand::done);
-    else if (key.size() == 1 && key[0] >= '1' && key[0] <= '8')
+    else if (key.size() == 1 && key[0] >= '0' && key[0] <= '9')
       send(channels, UserCommand::choose, key);
     else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
       send(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);

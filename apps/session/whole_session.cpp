@@ -10,6 +10,7 @@
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/palpation_session.h"
+#include "apps/session/pulse_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_records.h"
 
@@ -134,6 +135,25 @@ SessionLeft holdFriction(SessionOptions options) {
   });
 }
 
+SessionLeft holdPulse(SessionOptions options) {
+  settle(options);
+  if (!options.quiet) offerUnfinished();
+  if (options.headset)
+    throw UsageError("does not show a pulse yet", "--display openxr", "Choose window or offscreen");
+  const PulseWorld world(options);
+  settleOperator(options, world.station);
+  if (options.who == OperatorKind::person && world.onBench())
+    throw UsageError(
+        "cannot be felt with a mouse", "--operator person",
+        "Give a station with a haptic device (--station), or take --operator expert or novice");
+  checkTrainee(options);
+  return heldIn(options, [&](const std::filesystem::path& folder) {
+    const PulseRun run = runPulse(options, world, folder);
+    writePulseOutcome(options, world, run, folder);
+    return run.quit;
+  });
+}
+
 SessionLeft holdSession(Engine engine, SessionOptions options) {
   switch (engine) {
     case Engine::palpation:
@@ -144,6 +164,8 @@ SessionLeft holdSession(Engine engine, SessionOptions options) {
       return holdSqueeze(std::move(options));
     case Engine::friction:
       return holdFriction(std::move(options));
+    case Engine::pulse:
+      return holdPulse(std::move(options));
     case Engine::needle:
       break;
   }

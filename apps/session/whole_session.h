@@ -20,6 +20,7 @@ SessionLeft holdPalpation(SessionOptions options);
 SessionLeft holdSqueeze(SessionOptions options);
 SessionLeft holdSearch(SessionOptions options);
 SessionLeft holdFriction(SessionOptions options);
+SessionLeft holdPulse(SessionOptions options);
 
 /// The one for a task file's engine.
 SessionLeft holdSession(training::Engine engine, SessionOptions options);

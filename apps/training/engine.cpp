@@ -10,11 +10,12 @@ struct EngineNames {
   std::string name, command, before;
 };
 
-const std::array<EngineNames, 5> kNames{{{"needle", "paracentesis", ""},
+const std::array<EngineNames, 6> kNames{{{"needle", "paracentesis", ""},
                                          {"palpation", "palpation", ""},
                                          {"squeeze", "squeeze", ""},
                                          {"search", "search", "surface"},
-                                         {"friction", "friction", ""}}};
+                                         {"friction", "friction", ""},
+                                         {"pulse", "pulse", ""}}};
 
 const EngineNames& namesOf(Engine engine) { return kNames[static_cast<std::size_t>(engine)]; }
 
@@ -37,7 +38,7 @@ Engine engineIn(const JsonFile& file) {
   const std::optional<Engine> engine = engineNamed(name);
   if (!engine)
     file.refuse("engine",
-                "is \"" + name + "\"; known: needle, palpation, squeeze, search, friction");
+                "is \"" + name + "\"; known: needle, palpation, squeeze, search, friction, pulse");
   return *engine;
 }
 

@@ -10,9 +10,9 @@
 namespace palpa::training {
 
 /// What is trained, and by which rules: the field `engine` of a task's file.
-enum class Engine : std::uint8_t { needle, palpation, squeeze, search, friction };
+enum class Engine : std::uint8_t { needle, palpation, squeeze, search, friction, pulse };
 
-/// "needle", "palpation", "squeeze", "search", "friction": in files, tables and on pages.
+/// "needle", "palpation", "squeeze", "search", "friction", "pulse": in files, tables and on pages.
 const std::string& nameOf(Engine engine);
 
 /// The subcommand that holds such a session: "paracentesis" for a needle, else the engine's name.

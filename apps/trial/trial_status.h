@@ -69,8 +69,8 @@ enum class UserCommand : std::uint8_t {
 };
 struct UserRequest {
   UserCommand command = UserCommand::start;
-  /// Of a void; of a grade: what was said, as the task writes it down; of a choice: the key, "1" to
-  /// "8"; of a note or of what a part of the computer has to say: its text
+  /// Of a void; of a grade: what was said, as the task writes it down; of a choice: the key, "0" to
+  /// "9", or a whole number; of a note or of what a part of the computer has to say: its text
   std::string reason;
   /// Of a note: the session time it is about. Of a remark: 1 where the report is to say it
   double at_s = 0;

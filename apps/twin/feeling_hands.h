@@ -8,8 +8,8 @@
 #include "apps/twin/lump_search.h"
 #include "apps/twin/operator_skills.h"
 
-/// Simulated persons who find out by feel: in soft tissue, over a floor, between two fingers, and
-/// under one that strokes.
+/// Simulated persons who find out by feel: in soft tissue, over a floor, between two fingers, under
+/// one that strokes, and below a surface that beats.
 namespace palpa::twin {
 
 /// The fingers, one or two, of a simulated person who searches a soft thing for lumps, in vertical
@@ -70,5 +70,14 @@ std::array<std::unique_ptr<Hand>, 2> squeezingHands(const SqueezingSkill& skill,
 /// Knows what is on the screen and what the fingers feel; nothing else.
 std::unique_ptr<Hand> strokingHand(const StrokingSkill& skill, const Pose& X_AP, const Pose& X_ET,
                                    std::uint64_t seed);
+
+/// One simulated person who examines a pulse: knows where the artery usually lies (along y of the
+/// block, through its middle), presses at places across that line, from the middle outward, and
+/// waits at each for beats (BeatSense); goes back to the middle of where they were strongest; an
+/// expert then varies the pressure until they are strongest. Marks it with the button, says "done",
+/// counts what is felt while the screen says so, says the number and what the rhythm is by the felt
+/// intervals (rhythmBy). Knows what is on the screen and what the fingers feel; nothing else.
+std::unique_ptr<Hand> pulseHand(const PulseSkill& skill, const Pose& X_AP, const Pose& X_ET,
+                                std::uint64_t seed);
 
 }  // namespace palpa::twin

@@ -130,4 +130,19 @@ StrokingSkill readStrokingSkill(const std::filesystem::path& path) {
   return s;
 }
 
+PulseSkill readPulseSkill(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  auto s = handOf<PulseSkill>(file, "operator_pulse");
+  s.press = file.number("press_N", 0.05, 5);
+  s.step = kMm * file.number("step_mm", 0.5, 30);
+  s.reach = kMm * file.number("reach_mm", 1, 45);
+  s.listens_s = file.number("listens_s", 0.5, 10);
+  s.beat = {file.number("least_beat_N", 0.001, 0.5), file.number("beat_contrast", 0, 1),
+            file.number("beat_spread", 0, 1)};
+  s.adjusts = file.integer("adjusts", 0, 1) == 1;
+  s.slips = file.number("slips", 0, 0.5);
+  s.rhythm_sd = file.number("rhythm_sd", 0, 0.5);
+  return s;
+}
+
 }  // namespace palpa::twin

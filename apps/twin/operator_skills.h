@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
+#include "apps/twin/beat_sense.h"
 #include "apps/twin/device_twin.h"
 #include "apps/twin/hand_senses.h"
 
@@ -110,11 +111,26 @@ struct StrokingSkill {
   double weber_friction = 0;           ///< standard deviation of ln of what is felt
 };
 
+/// How a simulated person examines a pulse.
+struct PulseSkill {
+  std::string name;
+  HandGrip grip;
+  double tremor_rms = 0, look_sd = 0;  ///< m
+  double press = 0;                    ///< N: how hard it is looked for
+  double step = 0, reach = 0;          ///< m, across the artery's usual line
+  double listens_s = 0;                ///< at each place
+  BeatSense::Limits beat;
+  bool adjusts = false;  ///< varies the pressure until the beats are strongest
+  double slips = 0;      ///< share of the beats that are lost in counting, or counted twice
+  double rhythm_sd = 0;  ///< error of an interval as it is remembered, in itself
+};
+
 /// They throw UsageError naming file and field.
 OperatorSkill readOperatorSkill(const std::filesystem::path& file);
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& file);
 SearchingSkill readSearchingSkill(const std::filesystem::path& file);
 SqueezingSkill readSqueezingSkill(const std::filesystem::path& file);
 StrokingSkill readStrokingSkill(const std::filesystem::path& file);
+PulseSkill readPulseSkill(const std::filesystem::path& file);
 
 }  // namespace palpa::twin

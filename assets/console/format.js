@@ -34,6 +34,7 @@ const kTasks = {
   squeeze: "Squeeze",
   search: "Search",
   friction: "Friction",
+  pulse: "Pulse",
 };
 export const taskName = (id) => kTasks[id] || capital(String(id || "task"));
 

@@ -42,20 +42,27 @@ NeedleContact blendedContact(const TickConfig& config, TickState& state, const N
   return contact;
 }
 
-/// What is added to a real thing.
-NeedleContact touchedContact(const TickConfig& config, TickState& state, const FlightRecord& record,
-                             double dt) {
-  ToolTouch tool = touchIn(config, record.sensed);
-  tool.friction = static_cast<double>(record.commands.friction);
+/// What is added to a real thing; the pulse apart, a source.
+NeedleContact touchedContact(const TickConfig& config, TickState& state, TickFrame& frame) {
+  const TickCommands& commands = frame.record.commands;
+  const double dt = frame.input.dt;
+  ToolTouch tool = touchIn(config, frame.record.sensed);
+  tool.friction = static_cast<double>(commands.friction);
   const AugmentedTouch now =
-      augmentTouch(config.touch, record.commands.lumps, {tool, {}}, dt, &state.touch);
+      augmentTouch(config.touch, commands.lumps, {tool, {}}, dt, &state.touch);
+  const Modulated& felt = now.touch[0];
+  const PulseTouch touch{felt.contact, Vec3(tool.p_M - config.touch.tip_radius * felt.u_n),
+                         felt.u_n, felt.f_n};
+  frame.f_pulse_D =
+      unpack(config.X_DP.q).normalized() *
+      feelPulse(config.pulse, commands.artery, touch, frame.record.t_ns, dt, &state.pulse);
   return addedIn(config, now.f_d[0], now.touch[0].x, now.touch[0].f_n);
 }
 
 NeedleContact contactNow(const TickConfig& config, TickState& state, const TickCommands& commands,
                          std::int64_t now_ns, TickFrame& frame) {
   if (config.contact_mode == ContactMode::sensed_object)
-    return touchedContact(config, state, frame.record, frame.input.dt);
+    return touchedContact(config, state, frame);
   return blendedContact(config, state, frame.pose, commands, frame.input.dt, now_ns);
 }
 

@@ -21,9 +21,9 @@ PackedPose toolPose(const TickConfig& config, const TickState& state,
 /// ContactMode::sensed_object asks for no snapshots, and gives no force while the sensor is not
 /// valid; ContactMode::floor asks for none either, `floor` is the one whose number the commands
 /// say. A surface whose friction is modulated feels `commands.friction` times as rough as its law's
-/// wanted one. Zero force in the same tick for readings that cannot be, jumps, a clock that stood
-/// still or went back, and after a pause of the loop (watchdog). A device that is not homed touches
-/// nothing.
+/// wanted one; an artery in the commands pulses under one tool (feelPulse), not under two. Zero
+/// force in the same tick for readings that cannot be, jumps, a clock that stood still or went
+/// back, and after a pause of the loop (watchdog). A device that is not homed touches nothing.
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
                   const SensedForce& sensed = {}, const Floor* floor = nullptr) noexcept;

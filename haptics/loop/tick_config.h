@@ -7,6 +7,7 @@
 #include "haptics/contact/needle_contact.h"
 #include "haptics/contact/probe_contact.h"
 #include "haptics/modulation/modulation.h"
+#include "haptics/modulation/pulse.h"
 #include "haptics/modulation/touch_augmentation.h"
 #include "haptics/safety/passivity.h"
 #include "haptics/safety/safety_limiter.h"
@@ -39,6 +40,7 @@ struct TickConfig {
   std::int64_t age_limit_ns = 100'000'000;  ///< older snapshots fade out
   std::int64_t fade_ns = 50'000'000;
   TouchAugmentation touch;
+  PulseLaw pulse;
   PackedPose X_DP;  ///< the real thing, in whose frame its lumps lie
   PackedPose X_DF;  ///< the floor
   FloorRendering floor;

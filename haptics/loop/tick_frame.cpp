@@ -37,6 +37,7 @@ void startTrial(TickState& state, std::uint32_t trial) {
   state.contact = state.contact_old = NeedleState{};
   state.probe = state.probe_old = ProbeState{};
   state.touch = TouchAugmentationState{};
+  state.pulse = PulseState{};
   state.floor = FloorState{};
   state.tip = PointMotion{};
   state.augmentation = AugmentationState{};
@@ -73,6 +74,7 @@ void forgetMotion(TickState& state) {
                               &state.probe_old.motion, &state.floor.motion, &state.tip})
     motion->started = 0;
   state.touch = TouchAugmentationState{};
+  state.pulse = PulseState{};
   state.augmentation = AugmentationState{};
   state.passivity = PassivityState{};
 }
@@ -129,6 +131,7 @@ void forgetContact(TickState& state) {
   state.contact.skin_punctures = state.contact_old.skin_punctures = punctures;
   state.probe = state.probe_old = ProbeState{};
   state.touch = TouchAugmentationState{};
+  state.pulse = PulseState{};
   state.floor = FloorState{};
   state.tip = PointMotion{};
   state.augmentation = AugmentationState{};

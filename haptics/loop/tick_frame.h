@@ -16,7 +16,8 @@ struct TickFrame {
   double fresh = 0;              ///< share of the force that may go out, by the age of the geometry
   bool felt = false;             ///< the readings are believed: there is a contact to compute
   Vec3 f_hold_D = Vec3::Zero();  ///< N: what holds the handle up or in its place; no contact
-  Vec3 f_source_D = Vec3::Zero();  ///< N, of cues that heed no motion
+  Vec3 f_pulse_D = Vec3::Zero();   ///< N, of an artery under the tool
+  Vec3 f_source_D = Vec3::Zero();  ///< N, of the pulse and of cues that heed no motion
 };
 
 /// From one time to another, ns. In floating point: a clock that leaps must not overflow.
@@ -51,7 +52,8 @@ namespace palpa::haptics {
 NeedleContact floorContact(const TickConfig& config, TickState& state, const Floor* floor,
                            TickFrame* frame, FloorTouch* touch) noexcept;
 
-/// Signals, parts and augmentations of this tick into the record. `touch`: of a floor, else null.
+/// Signals, parts and augmentations of this tick into the record, with the frame's pulse. `touch`:
+/// of a floor, else null.
 void addAugmentations(const TickConfig& config, TickState& state, const NeedleContact& contact,
                       const Floor* floor, const FloorTouch* touch, TickFrame* frame) noexcept;
 

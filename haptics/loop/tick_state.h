@@ -7,6 +7,7 @@
 #include "haptics/contact/needle_contact.h"
 #include "haptics/contact/probe_contact.h"
 #include "haptics/modulation/modulation.h"
+#include "haptics/modulation/pulse.h"
 #include "haptics/modulation/touch_augmentation.h"
 #include "haptics/safety/passivity.h"
 #include "haptics/safety/plausibility.h"
@@ -24,6 +25,7 @@ struct TickState {
   NeedleState contact, contact_old;  ///< `contact_old` runs on `old` during the blend
   ProbeState probe, probe_old;
   TouchAugmentationState touch;
+  PulseState pulse;
   FloorState floor;
   PointMotion tip;  ///< by which the task's parts are recognised
   AugmentationState augmentation;

@@ -81,7 +81,7 @@ TEST_F(BadInput, OperatorOfAnotherTask) {
                      "--fast", "--quiet",    "--out",
                      "r"};
   };
-  for (const char* command : {"palpation", "search", "squeeze", "friction"})
+  for (const char* command : {"palpation", "search", "squeeze", "friction", "pulse"})
     expectRefused(with(command, "expert.json"), "expert.json");
   expectRefused(with("paracentesis", "palpation_expert.json"), "palpation_expert.json");
 }

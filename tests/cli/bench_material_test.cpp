@@ -102,6 +102,8 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_LE(worst(lines, "hand_still_mm_s"), 2);  // nothing swings on and on: that would be tens
   EXPECT_LE(worst(lines, "hand_gained_mJ"), 0.1);
   EXPECT_LE(worst(lines, "hand_largest_force"), 8);
+  EXPECT_EQ(valuesOf(lines, "pulse_rel_rms").size(), 6u);
+  EXPECT_LE(worst(lines, "pulse_rel_rms"), 0.05);
   if (!test::fullCounts()) return;
   const Lines cleared = linesOf(outcome, isCleared);
   EXPECT_EQ(valuesOf(cleared, "stiffness_rel_error").size(), 12u);
@@ -118,6 +120,8 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_EQ(valuesOf(cleared, "hand_still_mm_s").size(), 26u);
   EXPECT_LE(worst(cleared, "hand_still_mm_s"), 2);
   EXPECT_LE(worst(cleared, "hand_gained_mJ"), 0.1);
+  EXPECT_EQ(valuesOf(cleared, "pulse_rel_rms").size(), 6u);
+  EXPECT_LE(worst(cleared, "pulse_rel_rms"), 0.05);
 }
 
 }  // namespace

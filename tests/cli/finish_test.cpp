@@ -26,7 +26,8 @@ constexpr Kind kAll[] = {kNeedle,
                          {"palpation", "</section>"},
                          {"search", "</tr>"},
                          {"squeeze", "</tr>"},
-                         {"friction", "</tr>"}};
+                         {"friction", "</tr>"},
+                         {"pulse", "</tr>"}};
 
 std::vector<std::string> threeTrials(const Kind& kind, const std::string& out) {
   return quickly(

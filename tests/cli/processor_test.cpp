@@ -65,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
                                   std::string(PALPA_SOURCE_DIR) + "/assets/tasks/bone_pin.json"}},
                       KindOfTask{"palpation", {"palpation", "--preset", "prostate"}},
                       KindOfTask{"search", {"search", "--mode", "augmented"}},
-                      KindOfTask{"squeeze", {"squeeze"}}, KindOfTask{"friction", {"friction"}}),
+                      KindOfTask{"squeeze", {"squeeze"}}, KindOfTask{"friction", {"friction"}},
+                      KindOfTask{"pulse", {"pulse"}}),
     [](const auto& task) { return std::string(task.param.name); });
 
 }  // namespace

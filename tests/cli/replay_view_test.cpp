@@ -72,7 +72,8 @@ TEST(ReplayView, EveryTaskIsSeenAgain) {
         {"search", "--mode", "augmented"},
         {"squeeze"},
         {"friction"},
-        {"friction", "--sort"}}) {
+        {"friction", "--sort"},
+        {"pulse"}}) {
     const Folder here;
     std::vector<std::string> arguments = task;
     arguments.insert(arguments.end(),

@@ -32,11 +32,11 @@ std::string ownFolder(const Layer& layer, const std::string& path) {
   return path.substr(0, path.find('/', layer.folder.size() - 1));
 }
 
-/// "needle", "palpation", "comparison" or "search" for the files of one kind of task alone; empty:
-/// others.
+/// "needle", "palpation", "comparison", "search" or "pulse" for the files of one kind of task
+/// alone; empty: others.
 std::string engineOf(const std::string& path) {
   for (const char* before : {"apps/task_", "apps/assess/", "apps/report/"})
-    for (const char* engine : {"needle", "palpation", "comparison", "search"})
+    for (const char* engine : {"needle", "palpation", "comparison", "search", "pulse"})
       if (begins(path, std::string(before) + engine + "/")) return engine;
   return "";
 }

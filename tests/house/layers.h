@@ -22,7 +22,7 @@ const std::vector<Layer>& layers();
 const Layer* layerOf(const std::string& path);
 
 /// `header` of the project must not come to the file at `path` by any way. Kinds of task (needle,
-/// palpation, comparison, search) do not know each other, neither as tasks nor in scores and
+/// palpation, comparison, search, pulse) do not know each other, neither as tasks nor in scores and
 /// reports.
 bool mustNotReach(const Layer& layer, const std::string& path, const std::string& header);
 

@@ -21,8 +21,8 @@ Series practice(const std::vector<std::string>& trainees, int each) {
 
 TEST(Errors, EveryKindRestsOnAFigureOfItsEngine) {
   using training::Engine;
-  for (const Engine engine :
-       {Engine::needle, Engine::palpation, Engine::search, Engine::squeeze, Engine::friction}) {
+  for (const Engine engine : {Engine::needle, Engine::palpation, Engine::search, Engine::squeeze,
+                              Engine::friction, Engine::pulse}) {
     EXPECT_FALSE(errorKinds(engine).empty());
     for (const ErrorKind& kind : errorKinds(engine)) {
       const metrics::MetricDefinition* definition = metrics::metricNamed(kind.metric);

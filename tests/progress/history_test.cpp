@@ -74,7 +74,7 @@ TEST(History, EveryFigureShownIsInTheTable) {
   for (const std::optional<Engine> engine :
        {std::optional(Engine::needle), std::optional(Engine::palpation),
         std::optional(Engine::search), std::optional(Engine::squeeze),
-        std::optional(Engine::friction), unknown})
+        std::optional(Engine::friction), std::optional(Engine::pulse), unknown})
     for (const std::string& name : shownFigures(engine)) {
       const metrics::MetricDefinition* definition = metrics::metricNamed(name);
       ASSERT_NE(definition, nullptr) << name;
@@ -88,6 +88,7 @@ TEST(History, AnEngineIsKnownByItsFigures) {
   EXPECT_EQ(engineOfFigures({"chosen"}), training::Engine::search);
   EXPECT_EQ(engineOfFigures({"grips"}), training::Engine::squeeze);
   EXPECT_EQ(engineOfFigures({"touches"}), training::Engine::friction);
+  EXPECT_EQ(engineOfFigures({"pulse_found"}), training::Engine::pulse);
   EXPECT_EQ(engineOfFigures({}), std::nullopt);
   EXPECT_TRUE(std::isnan(cleanTrial("A", 1).metric("no such")));
 }

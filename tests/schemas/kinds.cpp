@@ -18,6 +18,7 @@
 #include "apps/task_comparison/comparison_file.h"
 #include "apps/task_needle/task_file.h"
 #include "apps/task_palpation/palpation_file.h"
+#include "apps/task_pulse/pulse_file.h"
 #include "apps/task_search/search_file.h"
 #include "apps/twin/bench_faults.h"
 #include "apps/twin/bench_truth.h"
@@ -174,6 +175,15 @@ std::vector<Kind> taskKinds() {
            .read = [](const fs::path& file) { task_comparison::readFriction(file); },
            // Surfaces differ by more than rounding, and there are enough of them.
            .stricter = {"/lumps.*", "/sort/(friction|surfaces).*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "task_pulse",
+           .samples = {{"tasks/pulse.json", json::object()}},
+           .read = [](const fs::path& file) { task_pulse::readPulse(file); },
+           // Least below most, milliseconds that rise, shares that add up to 1.
+           .stricter = {"/lumps.*", "/arteries/.*/(least|most)_depth_mm.*",
+                        "/arteries/.*/(ejection|reflection|valve).*", "/rhythms/.*",
+                        "/heart/(fewest|most)_between.*", "/patients/.*"},
            .forgiving = {},
            .elsewhere = {}}};
 }
@@ -453,6 +463,12 @@ std::vector<Kind> operatorKinds() {
           {.name = "operator_friction",
            .samples = {{"operators/friction_expert.json", json::object()}},
            .read = [](const fs::path& file) { twin::readStrokingSkill(file); },
+           .stricter = {},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "operator_pulse",
+           .samples = {{"operators/pulse_expert.json", json::object()}},
+           .read = [](const fs::path& file) { twin::readPulseSkill(file); },
            .stricter = {},
            .forgiving = {},
            .elsewhere = {}}};

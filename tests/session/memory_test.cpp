@@ -6,6 +6,7 @@
 #include "anatomy/base/quantile.h"
 #include "apps/session/comparison_session.h"
 #include "apps/session/palpation_session.h"
+#include "apps/session/pulse_session.h"
 #include "apps/session/search_session.h"
 #include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
@@ -93,6 +94,14 @@ TEST(Memory, OfASqueezeIsThatOfItsResults) {
                                          return runComparison(options, world,
                                                               freshPlace("squeeze"));
                                        }),
+            kResultBytes);
+}
+
+TEST(Memory, OfAPulseIsThatOfItsResults) {
+  EXPECT_LT(heldPerTrial<PulseWorld>(2,
+                                     [](const SessionOptions& options, const auto& world) {
+                                       return runPulse(options, world, freshPlace("pulse"));
+                                     }),
             kResultBytes);
 }
 

@@ -143,6 +143,7 @@ class OwnAssets : public SmallCampaign {
 TEST_F(OwnAssets, ThatDoNotCountAreNotRead) {
   const std::pair<const char*, const char*> sessions[]{{"squeeze", "palpation_bench"},
                                                        {"friction", "palpation_bench"},
+                                                       {"pulse", "palpation_bench"},
                                                        {"search", "search_bench"},
                                                        {"palpation_breast", "palpation_bench"},
                                                        {"bone_pin", "virtual_bench"}};

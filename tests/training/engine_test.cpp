@@ -8,8 +8,8 @@ namespace palpa::training {
 namespace {
 
 TEST(Engine, NamesRoundTripAndTheOldNameIsRead) {
-  for (const Engine engine :
-       {Engine::needle, Engine::palpation, Engine::squeeze, Engine::search, Engine::friction})
+  for (const Engine engine : {Engine::needle, Engine::palpation, Engine::squeeze, Engine::search,
+                              Engine::friction, Engine::pulse})
     EXPECT_EQ(engineNamed(nameOf(engine)), engine);
   EXPECT_EQ(engineNamed("surface"), Engine::search);
   EXPECT_FALSE(engineNamed(""));

@@ -58,7 +58,14 @@ const std::map<Engine, std::vector<ErrorKind>> kKindsOfEngines{
        "squeeze both equally deep and equally fast before answering"}}},
     {Engine::friction,
      {{"success", 0.5, true, "the answer was wrong or missing",
-       "stroke each surface with the same pressure and the same speed before answering"}}}};
+       "stroke each surface with the same pressure and the same speed before answering"}}},
+    {Engine::pulse,
+     {{"pulse_found", 0.5, true, "the pulse was not found",
+       "search across the artery with light pressure, in small steps, before marking"},
+      {"count_error_per_min", 3, false, "the pulse was counted wrong",
+       "count for the full 30 s with steady, light pressure"},
+      {"rhythm_told", 0.5, true, "the rhythm was named wrong",
+       "attend to the pauses between beats, not only to their number"}}}};
 
 assess::ParacentesisValues valuesOf(const PracticeTrial& t) {
   return {t.metric("col_lung"),     t.metric("col_rib"),

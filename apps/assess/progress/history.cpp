@@ -31,6 +31,7 @@ constexpr std::array<std::string_view, kFigures> kKept{"back_wall_punctures",
                                                        "col_lung",
                                                        "col_rib",
                                                        "col_vein",
+                                                       "count_error_per_min",
                                                        "coverage_deep_pct",
                                                        "coverage_light_pct",
                                                        "coverage_medium_pct",
@@ -45,6 +46,8 @@ constexpr std::array<std::string_view, kFigures> kKept{"back_wall_punctures",
                                                        "peak_force_N",
                                                        "phase_1_mm",
                                                        "phase_2",
+                                                       "pulse_found",
+                                                       "rhythm_told",
                                                        "rotational_actions",
                                                        "sensitivity_pct",
                                                        "specificity_pct",
@@ -180,7 +183,7 @@ std::optional<Engine> engineOfFigures(const std::vector<std::string>& metrics) {
   for (const auto& [name, engine] :
        {std::pair{"tissue_time_s", Engine::needle}, std::pair{"presses", Engine::palpation},
         std::pair{"chosen", Engine::search}, std::pair{"grips", Engine::squeeze},
-        std::pair{"touches", Engine::friction}})
+        std::pair{"touches", Engine::friction}, std::pair{"pulse_found", Engine::pulse}})
     if (has(name)) return engine;
   return std::nullopt;
 }
@@ -195,7 +198,9 @@ const std::vector<std::string>& shownFigures(std::optional<Engine> engine) {
         "coverage_deep_pct", "time_s", "too_light_pct", "too_hard_pct"}},
       {Engine::search, {"success", "time_s", "path_length_mm", "peak_force_N"}},
       {Engine::squeeze, {"success", "time_s", "grips", "peak_force_N"}},
-      {Engine::friction, {"success", "time_s", "touches", "peak_force_N"}}};
+      {Engine::friction, {"success", "time_s", "touches", "peak_force_N"}},
+      {Engine::pulse,
+       {"success", "pulse_found", "count_error_per_min", "rhythm_told", "time_s", "peak_force_N"}}};
   static const std::vector<std::string> kAnyTask{"success", "time_s"};
   return engine ? kShown.at(*engine) : kAnyTask;
 }

@@ -1,0 +1,182 @@
+#include "apps/session/pulse_session.h"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+
+#include "anatomy/base/counted.h"
+#include "anatomy/parametric/phantoms.h"
+#include "apps/report/pulse/pulse_report.h"
+#include "apps/runtime/clock.h"
+#include "apps/session/output_folder.h"
+#include "apps/station/assets.h"
+#include "apps/task_pulse/pulse_scene.h"
+#include "apps/training/trial_words.h"
+#include "apps/twin/feeling_hands.h"
+#include "apps/twin/soft_samples.h"
+
+namespace palpa::session {
+namespace {
+
+constexpr double kToolAbove = 0.05;  // m above the surface, where the tool is picked up
+
+station::Station pulseStation(const SessionOptions& options) {
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/palpation_bench.json")
+                              : std::filesystem::path(options.station));
+  station::judgeAge(station, runtime::utcNow());
+  if (!station.sample)
+    throw UsageError("has no \"sample\"", station.file.name(),
+                     "Say where the silicone lies: sample/X_WP, the middle of its top, and "
+                     "sample/tip_radius_mm");
+  if (!station.force_sensor)
+    throw UsageError("has no \"force_sensor\"", station.file.name(),
+                     "The station must measure the force on what is pressed: describe the sensor");
+  if (station.device.driver == station::DeviceDriver::bench &&
+      station.force_sensor->driver != station::ForceSensorDriver::bench)
+    station.file.refuse("force_sensor/driver",
+                        "is a real sensor, but the device is simulated and touches simulated "
+                        "silicone; it must be \"virtual\", too");
+  return station;
+}
+
+}  // namespace
+
+PulseWorld::PulseWorld(const SessionOptions& options)
+    : station(pulseStation(options)),
+      task(task_pulse::readPulse(options.task.empty() ? station::assetFile("tasks/pulse.json")
+                                                      : std::filesystem::path(options.task))),
+      object(anatomy::phantomBlock(task.size, task.title)),
+      X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
+  task.library = station::onStation(std::move(task.library), station.calibrations);
+  if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
+    station.file.refuse("sample/tip_radius_mm",
+                        "is not that of the tip with which the silicone was identified");
+}
+
+haptics::TickConfig PulseWorld::tickConfig(const SessionOptions& options) const {
+  haptics::TickConfig tick;
+  tick.contact_mode = haptics::ContactMode::sensed_object;
+  tick.object_at_port = 1;
+  tick.coupling = station.coupling;
+  tick.safety = station.safety;
+  if (onBench()) tick.safety.deadman_button = 0;  // nobody could hold it
+  tick.passivity = station.passivity;
+  tick.X_ET = pack(station.X_ET);
+  tick.touch = station::touchOf(task.library);
+  tick.pulse = task.law;
+  tick.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
+  tick.period_ns = std::llround(1e9 / options.rate_Hz);
+  tick.device_turns = onBench() || station.device.capabilities.has_orientation;
+  return tick;
+}
+
+SessionDevices::Hands PulseWorld::hands(const SessionOptions& options) const {
+  const twin::PulseSkill skill = twin::readPulseSkill(operatorFile(options, "pulse_"));
+  const Pose& X_WP = station.sample->X_WP;
+  const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+  twin::VirtualBenchSetup bench{
+      .station = station,
+      .hand = twin::pulseHand(skill, anatomy::X_AP(), station.X_ET, options.seed),
+      .X_DE_start = station.X_WD.inverse() * X_WP * makePose(down, Vec3(0, 0, kToolAbove)) *
+                    station.X_ET.inverse(),
+      .watched_W = X_WP.translation(),
+      .normal_W = X_WP.linear() * Vec3::UnitZ(),
+      .seed = options.benchSeed()};
+  if (onBench()) {
+    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
+    bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
+      const twin::SampleTouch touch = sample->step(X_WT_true[0], dt);
+      return std::array<twin::RealTouch, 2>{twin::RealTouch{touch.f_W, touch.p_W}, {}};
+    };
+  }
+  return {std::move(bench), std::nullopt, task.library.tip_radius};
+}
+
+record::SessionInfo PulseWorld::info(const SessionOptions& options) const {
+  record::SessionInfo info = infoOf(options, head(options));
+  info.station_json = station.file.json().dump();
+  info.task_json = task.source;
+  info.tick_config = tickConfig(options);
+  return info;
+}
+
+ReportHead PulseWorld::head(const SessionOptions& options) const {
+  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
+  head.too_hard_N = task.rules.too_hard_N;
+  head.station = stationFactsOf(options, station);
+  head.station.push_back(surfaceFact(task.library));
+  return head;
+}
+
+PulseRun runPulse(const SessionOptions& options, const PulseWorld& world,
+                  const std::filesystem::path& folder) {
+  task_pulse::PulseChannels channels(options.fast ? runtime::TimeMode::virtual_time
+                                                  : runtime::TimeMode::real);
+  const haptics::TickConfig tick = world.tickConfig(options);
+  SessionFrame frame(options, {world.station, world.object, world.X_WA, tick, std::nullopt, false},
+                     world.hands(options), channels, folder);
+  const std::string not_scored = world.station.calibrationProblem();
+  task_pulse::PulseTask task(
+      {.settings = world.task,
+       .tick = tick,
+       .simulated = world.simulated(options),
+       .automatic = options.who != OperatorKind::person,
+       .force_feedback = options.force_feedback,
+       .not_scored = not_scored,
+       .seed = options.seed,
+       .cases = task_pulse::casesOf(world.task, options.seed, options.trials),
+       .places = frame.places(),
+       .role = options.role},
+      frame.bus(), channels, frame.executive());
+  task_pulse::PulseScene scene({frame.stage(), anatomy::X_AP()}, frame.bus(), channels);
+  PulseRun run;
+  static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
+  run.trials = task.completed();
+  return run;
+}
+
+void writePulseResults(const ReportHead& head,
+                       const std::vector<task_pulse::CompletedPulse>& trials,
+                       const assess::PulseRules& rules, const ReportTail& tail,
+                       const std::filesystem::path& evidence) {
+  report::PulseReport page;
+  page.rules = rules;
+  for (const task_pulse::CompletedPulse& trial : trials) page.trials.push_back(trial.trial);
+  const std::filesystem::path folder = evidence.parent_path();
+  report::writePulseCsv(head.user_id, page.trials, rules, folder / "trials.csv");
+  if (!head.page) return;
+  page.title = head.title;
+  page.trainee = head.trainee;
+  page.simulated = head.simulated;
+  for (const trial::SavedPicture& p : tail.pictures)
+    page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
+  page.taxonomy = head.taxonomy;
+  page.station = head.station;
+  page.notes = tail.notes;
+  report::writePulseReport(page, folder / "report.html");
+}
+
+void writePulseOutcome(const SessionOptions& options, const PulseWorld& world, const PulseRun& run,
+                       const std::filesystem::path& folder) {
+  const assess::PulseRules& rules = world.task.rules;
+  writePulseResults(world.head(options), run.trials, rules, {run.pictures, runNotes(run)},
+                    folder / "session.palpa");
+  for (const task_pulse::CompletedPulse& trial : run.trials)
+    std::printf(
+        "Trial %d (%s%s): %s\n", trial.trial.trial, training::nameOf(trial.trial.role).c_str(),
+        trial.trial.simulated ? ", simulated" : "",
+        trial.reason.empty() ? summaryOf(trial.trial, rules).c_str() : trial.reason.c_str());
+  if (!options.report) return;
+  std::printf("Written to %s:\n", folder.string().c_str());
+  std::printf("  report.html     what was found, counted and told: open this first\n");
+  std::printf(
+      "  trials.csv      one row a scored trial\n  session.palpa   the evidence: every tick, for "
+      "replay\n");
+  if (!run.pictures.empty())
+    std::printf("  view-*.png      %s of the marked moments\n",
+                counted(run.pictures.size(), "picture").c_str());
+}
+
+}  // namespace palpa::session
