@@ -139,7 +139,7 @@ ProcedureAgreement procedureAgreement(std::size_t procedures,
       if (labelled[q][i] != kNoProcedure) ++a.table(labelled[q][i], matched[q][i]);
     }
   a.judged = a.table.sum();
-  a.kappa = calibration::kappaByName(a.table);
+  if (a.judged > 0) a.kappa = calibration::kappaByName(a.table);
   for (Eigen::Index k = 0; k < count; ++k)
     a.each.push_back({a.table.row(k).sum(), a.table.col(k).sum(), a.table(k, k)});
   return a;
