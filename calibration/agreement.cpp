@@ -144,6 +144,16 @@ double cohensKappa(const Contingency& table) {
   return (observed - by_chance) / (1 - by_chance);
 }
 
+double kappaByName(const Eigen::MatrixXi& counts) {
+  if (counts.rows() != counts.cols() || counts.sum() == 0)
+    throw Error("the table is not square or empty", kAgreementWhere,
+                "Count the same labels in both, at least one step");
+  const Eigen::MatrixXd share = counts.cast<double>() / static_cast<double>(counts.sum());
+  const double observed = share.trace(),
+               by_chance = share.rowwise().sum().dot(share.colwise().sum().transpose());
+  return by_chance < 1 ? (observed - by_chance) / (1 - by_chance) : 1;
+}
+
 double adjustedRandIndex(const Contingency& table) {
   const Eigen::MatrixXd n = table.counts.cast<double>();
   const double together = n.unaryExpr(&pairsOf).sum();

@@ -29,6 +29,11 @@ std::vector<int> bestMatching(const Contingency& table);
 /// chosen in favour of agreement: random labels lie above 0 by about K / sqrt(steps).
 double cohensKappa(const Contingency& table);
 
+/// Cohen 1960 for labels that have the same names in both, in the same order: rows and columns are
+/// the same labels, and no matching is sought. p_o the share on the diagonal, p_e the sum of the
+/// products of row and column shares. Throws Error for no steps and a table that is not square.
+double kappaByName(const Eigen::MatrixXi& counts);
+
 /// Hubert and Arabie 1985: (sum C(n_ij, 2) - E) / ((A + B) / 2 - E), A = sum C(n_i., 2), B = sum
 /// C(n_.j, 2), E = A B / C(n, 2). 1: alike but for names; 0 in the mean by chance; can be below.
 /// Needs no matching: a subtask found in two parts costs only that. Both with a single label, and

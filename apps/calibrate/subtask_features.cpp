@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace palpa::calibrate {
@@ -13,7 +14,19 @@ constexpr std::array<SubtaskFeatureName, kSubtaskFeatures> kFeatureNames{
      {"in_contact", "contact"},
      {"log_shaking", "shaking of the force"}}};
 
-/// The bits that were counted most often; of equals those that came first.
+/// Sums before a step's first tick.
+const calibration::ToolStep kNoTool{.axis_D = Vec3::Zero()};
+
+void countOne(int value, std::vector<std::pair<int, int>>* counted) {
+  const auto known = std::find_if(counted->begin(), counted->end(),
+                                  [&](const auto& c) { return c.first == value; });
+  if (known == counted->end())
+    counted->emplace_back(value, 1);
+  else
+    ++known->second;
+}
+
+/// The value that was counted most often; of equals the one that came first.
 int mostOften(const std::vector<std::pair<int, int>>& labels) {
   return std::max_element(labels.begin(), labels.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
@@ -37,45 +50,73 @@ Vec3 SubtaskSteps::tipOf(const haptics::DeviceReading& reading) const {
   return unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config_.X_ET.p);
 }
 
+/// The tool lies along +z of T.
+Vec3 SubtaskSteps::axisOf(const haptics::DeviceReading& reading) const {
+  return unpack(reading.q_DE).normalized() * (unpack(config_.X_ET.q).normalized() * Vec3::UnitZ());
+}
+
 void SubtaskSteps::interrupt() {
   if (running_ && !rows_.empty()) {
     SubtaskSequence sequence{
-        {},
-        1e-9 * static_cast<double>(begin_ns_),
-        Eigen::MatrixXd(static_cast<Eigen::Index>(rows_.size()), kSubtaskFeatures),
-        std::move(labels_)};
+        .trial = {},
+        .begins_s = 1e-9 * static_cast<double>(begin_ns_),
+        .features = Eigen::MatrixXd(static_cast<Eigen::Index>(rows_.size()), kSubtaskFeatures),
+        .motion = calibration::interactionFeatures(tools_),
+        .labels = std::move(labels_),
+        .parts = std::move(parts_)};
     for (std::size_t i = 0; i < rows_.size(); ++i)
       sequence.features.row(static_cast<Eigen::Index>(i)) = rows_[i];
     done_.push_back(std::move(sequence));
   }
   rows_.clear();
   labels_.clear();
+  parts_.clear();
+  tools_.clear();
+  tool_ = kNoTool;
   sums_ = {};
   counted_.clear();
+  parts_counted_.clear();
   running_ = false;
 }
 
 void SubtaskSteps::closeStep() {
+  const std::uint32_t ticks = sums_.ticks;
   const haptics::LearnedRow step = sums_.close();
+  closeTool(ticks, step[kLogShaking], step[kInContact]);
   const Eigen::RowVectorXd row =
       Eigen::Map<const Eigen::RowVectorXd>(step.data(), kSubtaskFeatures);
   rows_.push_back(row);
   labels_.push_back(mostOften(counted_));
+  parts_.push_back(mostOften(parts_counted_));
   counted_.clear();
+  parts_counted_.clear();
   ++step_;
+}
+
+void SubtaskSteps::closeTool(std::uint32_t ticks, double log_shaking, double contact) {
+  const double n = ticks;
+  tools_.push_back({.p_DT = tool_.p_DT / n,
+                    .axis_D = tool_.axis_D.normalized(),
+                    .f_D = tool_.f_D / n,
+                    .shaking = std::exp(log_shaking),
+                    .buzzing = std::sqrt(tool_.buzzing / n),
+                    .contact = contact,
+                    .plunger = tool_.plunger / n});
+  tool_ = kNoTool;
 }
 
 void SubtaskSteps::count(const haptics::FlightRecord& record) {
   const double dt = 1e-9 * static_cast<double>(record.t_ns - last_ns_);
   haptics::follow(motion_, tipOf(record.reading), kSpeedTau_s, dt);
   sums_.add(unpack(motion_.v_D).norm(), forceOn(record), dt);
-  const int bits = record.subtasks;
-  const auto label = std::find_if(counted_.begin(), counted_.end(),
-                                  [&](const auto& l) { return l.first == bits; });
-  if (label == counted_.end())
-    counted_.emplace_back(bits, 1);
-  else
-    ++label->second;
+  tool_.p_DT += tipOf(record.reading);
+  tool_.axis_D += axisOf(record.reading);
+  tool_.f_D += forceOn(record);
+  tool_.plunger += record.reading.plunger;
+  below_buzz_ += (forceOn(record) - below_buzz_) * (dt / (kBuzzTau_s + dt));
+  tool_.buzzing += (forceOn(record) - below_buzz_).squaredNorm();
+  countOne(record.subtasks, &counted_);
+  countOne(record.commands.subtask, &parts_counted_);
 }
 
 void SubtaskSteps::add(const haptics::FlightRecord& record) {
@@ -93,6 +134,7 @@ void SubtaskSteps::add(const haptics::FlightRecord& record) {
     step_ = 0;
     motion_ = {};
     sums_.slow_force = pack(forceOn(record));
+    below_buzz_ = forceOn(record);
   }
   if (record.t_ns >= begin_ns_ + (step_ + 1) * kSubtaskStep_ns) closeStep();
   count(record);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/interaction_features.h"
 #include "haptics/augmentation/learned_part.h"
 #include "haptics/contact/contact_parts.h"
 #include "haptics/loop/tick_config.h"
@@ -20,6 +21,7 @@ using haptics::kLeastForce_N, haptics::kLeastShaking_N, haptics::kLeastSpeed;
 inline constexpr int kSubtaskFeatures = haptics::kLearnedFeatures;
 inline constexpr std::int64_t kSubtaskStep_ns = haptics::kLearnedStep_ns;
 inline constexpr double kSpeedTau_s = 0.005;  ///< low-pass of the tip's velocity: encoders' steps
+inline constexpr double kBuzzTau_s = 0.002;   ///< what is faster than 80 Hz buzzes [chosen]
 
 struct SubtaskFeatureName {
   const char* name;  ///< in files
@@ -32,8 +34,12 @@ struct SubtaskSequence {
   std::string trial;         ///< "search, trial 3"
   double begins_s = 0;       ///< of session time
   Eigen::MatrixXd features;  ///< steps x kSubtaskFeatures
+  /// steps x kInteractionFeatures: what was done, for the library of interactive procedures
+  Eigen::MatrixXd motion;
   /// Bits of the parts that were on for most of the step; of equals those that came first
   std::vector<int> labels;
+  /// Number of the part that the task itself said was on, of most of the step (TickCommands)
+  std::vector<int> parts;
 };
 
 /// Gathers the steps of one trial: every tick of tool 0 that was armed, not held and told finite
@@ -51,7 +57,9 @@ class SubtaskSteps {
   void closeStep();
   void count(const haptics::FlightRecord& record);
   Vec3 forceOn(const haptics::FlightRecord& record) const;
-  Vec3 tipOf(const haptics::DeviceReading& reading) const;  ///< in D
+  Vec3 tipOf(const haptics::DeviceReading& reading) const;   ///< in D
+  Vec3 axisOf(const haptics::DeviceReading& reading) const;  ///< in D, unit, toward the tip
+  void closeTool(std::uint32_t ticks, double log_shaking, double contact);
 
   haptics::TickConfig config_;
   bool running_ = false;
@@ -59,9 +67,12 @@ class SubtaskSteps {
   haptics::PointMotion motion_;
   haptics::StepSums sums_;
   /// bits of the parts that were on in this step, how often
-  std::vector<std::pair<int, int>> counted_;
+  std::vector<std::pair<int, int>> counted_, parts_counted_;
   std::vector<Eigen::RowVectorXd> rows_;
-  std::vector<int> labels_;
+  std::vector<int> labels_, parts_;
+  calibration::ToolStep tool_;      ///< sums over the step's ticks
+  Vec3 below_buzz_ = Vec3::Zero();  ///< N, low-passed force
+  std::vector<calibration::ToolStep> tools_;
   std::vector<SubtaskSequence> done_;
 };
 

@@ -13,10 +13,15 @@ namespace {
 
 constexpr const char* kSubtaskExamples = R"(Examples:
   palpa calibrate subtasks out/expert-a/session.palpa out/expert-b/session.palpa --out parts
-      what experts did, divided by a hidden Markov model, beside the parts that the task's file names
+      the interactive procedures that the library recognises, with the cue that it maps to each, and
+      how they agree with the parts that the tasks' files name
+  palpa calibrate subtasks out/expert-a/session.palpa --learn
+      for what no library knows: what was done, divided by a hidden Markov model into states that a
+      task's parts can ask for
   palpa calibrate subtasks out/expert-a/session.palpa --states 3
       into three states, however many are proposed
-All sessions must be of one task whose file names its parts. Use six trials or more, best of several experts.)";
+All sessions must be of tasks whose files name their parts; with --learn or --states of one task, and
+then use six trials or more, best of several experts.)";
 
 constexpr std::int64_t kSilent_ns = 2'000'000'000, kBetween_ns = 1'000'000'000;
 
@@ -24,8 +29,9 @@ struct SubtaskCommand {
   std::vector<std::string> recordings;
   std::string task, out;
   std::uint64_t seed = 1;
+  std::string library;
   int states = 0;
-  bool quiet = false;
+  bool learn = false, quiet = false;
 };
 
 /// Says what is being done once it has taken two seconds, then each second.
@@ -45,7 +51,7 @@ class PatientNotes {
   std::int64_t next_ns_ = kSilent_ns;
 };
 
-void calibrateSubtasks(const SubtaskCommand& o) {
+void learnSubtasks(const SubtaskCommand& o) {
   using namespace calibrate;
   const SubtaskRecordings recordings =
       readSubtaskRecordings({o.recordings.begin(), o.recordings.end()}, o.task);
@@ -69,6 +75,20 @@ void calibrateSubtasks(const SubtaskCommand& o) {
   std::printf("Written: %s\n", (folder / "calibration.html").c_str());
 }
 
+void calibrateSubtasks(const SubtaskCommand& o) {
+  const bool learn = o.learn || o.states > 0;
+  if (learn && !o.library.empty())
+    throw UsageError("goes with neither --learn nor --states", "--library",
+                     "Choose the library or a model of these recordings alone");
+  if (!learn && !o.task.empty())
+    throw UsageError("goes with --learn or --states", "--task",
+                     "Leave it out: the library takes the parts from the recordings");
+  if (learn)
+    learnSubtasks(o);
+  else
+    proposeByLibrary(o.recordings, o.library, o.out);
+}
+
 }  // namespace
 
 void addSubtaskCalibration(CLI::App& calibrate) {
@@ -77,12 +97,19 @@ void addSubtaskCalibration(CLI::App& calibrate) {
       "A task's parts proposed from experts' recorded sessions, beside the hand-written ones");
   command->footer(kSubtaskExamples);
   const auto o = std::make_shared<SubtaskCommand>();
-  command->add_option("RECORDING", o->recordings, "Recorded sessions (session.palpa) of one task")
+  command->add_option("RECORDING", o->recordings, "Recorded sessions (session.palpa)")
       ->required()
       ->type_name("FILE...");
   command
+      ->add_option("--library", o->library,
+                   "Library of interactive procedures; default: the shipped one")
+      ->type_name("FILE");
+  command->add_flag("--learn", o->learn,
+                    "Learn states from these recordings alone, without a library");
+  command
       ->add_option("--task", o->task,
-                   "Task file to take the parts' names from; otherwise what was recorded")
+                   "With --learn: task file to take the parts' names from; otherwise what was "
+                   "recorded")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
   command
@@ -102,6 +129,7 @@ void addCalibrate(CLI::App& program) {
       "calibrate all --station my_station.json\n  palpa calibrate camera --help");
   addStationCalibrations(*calibrate);
   addSubtaskCalibration(*calibrate);
+  addProcedureCalibration(*calibrate);
   addExpertCalibration(*calibrate);
 }
 

@@ -56,6 +56,13 @@ void addStationCalibrations(CLI::App& calibrate);
 /// subtasks: a task's parts proposed from recorded sessions.
 void addSubtaskCalibration(CLI::App& calibrate);
 
+/// procedures: the library of interactive procedures from recorded sessions.
+void addProcedureCalibration(CLI::App& calibrate);
+/// Parts of recorded tasks by that library: page and JSON in a folder, words on standard output.
+/// Empty names: the shipped library, a folder of its own.
+void proposeByLibrary(const std::vector<std::string>& recordings, const std::string& library,
+                      const std::string& out);
+
 /// experts: the expert path from recorded trials.
 void addExpertCalibration(CLI::App& calibrate);
 

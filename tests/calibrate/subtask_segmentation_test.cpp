@@ -28,8 +28,9 @@ std::vector<SubtaskSequence> plantedSequences(int trials, int steps, std::uint64
   RandomStream random = RandomStream::ofSeed(seed);
   std::vector<SubtaskSequence> all;
   for (int i = 0; i < trials; ++i) {
-    SubtaskSequence q{
-        "trial " + std::to_string(i + 1), 0, Eigen::MatrixXd(steps, kSubtaskFeatures), {}};
+    SubtaskSequence q;
+    q.trial = "trial " + std::to_string(i + 1);
+    q.features.resize(steps, kSubtaskFeatures);
     int regime = i % 3, left = 40;
     for (int t = 0; t < steps; ++t, --left) {
       if (left == 0) {

@@ -73,6 +73,30 @@ TEST(CalibrateSubtasks, FromARecordedSearchAndATaskMayAskForThem) {
   EXPECT_TRUE(says(gone.err, "parts/calibration.json")) << gone.err;
 }
 
+TEST(CalibrateSubtasks, ProposesProceduresWithTheirCuesByTheLibrary) {
+  const Folder here;
+  ASSERT_EQ(recordedSearch("1", "search", here).exit_code, 0);
+  const Outcome outcome =
+      palpa({"calibrate", "subtasks", "search/session.palpa", "--out", "parts"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* words : {"(SIMULATED)", "scrub", "cue: relief", "Kappa", "Recall: "})
+    EXPECT_TRUE(says(outcome.out, words)) << words << "\n" << outcome.out;
+  const json file = json::parse(contentOf(here / "parts/procedures.json"));
+  ASSERT_EQ(file["trials"].size(), 1u);
+  double end_s = 0;
+  for (const json& part : file["trials"][0]["parts"]) {  // end to end, each with a cue
+    EXPECT_NEAR(part["from_s"].get<double>(), end_s, 1e-9);
+    end_s = part["to_s"].get<double>();
+    EXPECT_TRUE(part["cue"].is_string());
+  }
+  EXPECT_NEAR(end_s, file["agreement"]["all_s"].get<double>(), 1e-6);
+  const std::string page = contentOf(here / "parts/procedures.html");
+  for (const char* words : {"SIMULATED", "cue proposed", "scrub", "recall"})
+    EXPECT_TRUE(says(page, words)) << words;
+  for (const char* words : {"src=\"http", "href=\"http", "<script", "url("})
+    EXPECT_FALSE(says(page, words)) << words;
+}
+
 TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
   const Folder here;
   const auto refused = [&](const std::vector<std::string>& more, const std::string& words,
@@ -88,7 +112,10 @@ TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
   refused({"text.palpa"}, "text.palpa: is not a session file");
   refused({"none.palpa"}, "none.palpa: no such file");
   ASSERT_EQ(recordedSearch("1", "one", here).exit_code, 0);
-  refused({"one/session.palpa"}, "1 trial is too few");
+  refused({"one/session.palpa", "--learn"}, "1 trial is too few");
+  refused({"one/session.palpa", "--learn", "--library", "own.json"}, "--library", 2);
+  here.file("task.json", "{}");
+  refused({"one/session.palpa", "--task", "task.json"}, "--task", 2);
   ASSERT_EQ(palpa(quickly({"squeeze", "--operator", "expert", "--trials", "1", "--seed", "70001",
                            "--out", "squeeze"}),
                   here.path())

@@ -31,6 +31,7 @@
 #include "ar/boards/board.h"
 #include "calibration/camera_model.h"
 #include "calibration/expert_path.h"
+#include "calibration/interactive_procedures.h"
 #include "tests/support/files.h"
 
 namespace palpa::schemas {
@@ -305,6 +306,15 @@ std::vector<Kind> patientKinds() {
                    {"tasks/paracentesis_published_expert_path.json", json::object()}},
        .read = [](const fs::path& file) { calibration::readExpertPath(file); },
        .stricter = {"/direction(_L)?/.*"},  // a unit vector
+       .forgiving = {},
+       .elsewhere = {}},
+      {.name = "interactive_procedures",
+       .samples = {{"interactions/procedures.json", json::object()}},
+       .read = [](const fs::path& file) { calibration::readProcedures(file); },
+       // Procedures are asked for by name, each once; of two figures the second is the larger; the
+       // mean duration is not below the least.
+       .stricter = {"/procedures/.*/(name|least_ms|mean_ms|profiles).*", "/labels/.*/procedure.*",
+                    "/any/.*"},
        .forgiving = {},
        .elsewhere = {}},
       {.name = "seeds",

@@ -42,6 +42,7 @@ constexpr Place kPlaces[] = {
     {"protocols/learners/[^/]+", "learners"},
     {"protocols/questionnaires/[^/]+", "questionnaire"},
     {"stations/[^/]+", "station"},
+    {"interactions/[^/]+", "interactive_procedures"},
     {"tasks/[^/]+_expert_path.json", "expert_path"},
     {"tasks/(bone_pin|paracentesis).json", "task_needle"},
     {"tasks/friction.json", "task_friction"},

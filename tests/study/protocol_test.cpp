@@ -89,13 +89,16 @@ TEST(Protocol, TheShippedOnesAreTheSources) {
   const Protocol search = readProtocol(shipped / "search_study.json");
   ASSERT_EQ(search.sessions.size(), 2u);
   EXPECT_GE(search.sessions[1].days_after, 1);
-  const int trials[] = {60, 40, 60};
-  for (int step = 1; step <= 3; ++step) {
-    EXPECT_EQ(search.block(step).trials, trials[step - 1]);
-    EXPECT_EQ(search.block(step).rest_after, 20);
-    EXPECT_EQ(search.block(step).condition.empty(), step == 2);  // drawn for the training alone
-  }
+  EXPECT_EQ(search.block(1).role, training::Role::familiarisation);
   EXPECT_EQ(search.condition(search.block(1).condition)->shows.mode, "real");
+  const int trials[] = {60, 40, 60};
+  for (int step = 2; step <= 4; ++step) {
+    EXPECT_EQ(search.block(step).role, training::Role::scored);
+    EXPECT_EQ(search.block(step).trials, trials[step - 2]);
+    EXPECT_EQ(search.block(step).rest_after, 20);
+    EXPECT_EQ(search.block(step).condition.empty(), step == 3);  // drawn for the training alone
+  }
+  EXPECT_EQ(search.condition(search.block(2).condition)->shows.mode, "real");
   EXPECT_EQ(search.condition("augmented")->shows.mode, "augmented");
 }
 
