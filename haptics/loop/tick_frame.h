@@ -16,7 +16,7 @@ struct TickFrame {
   double fresh = 0;              ///< share of the force that may go out, by the age of the geometry
   bool felt = false;             ///< the readings are believed: there is a contact to compute
   Vec3 f_hold_D = Vec3::Zero();  ///< N: what holds the handle up or in its place; no contact
-  Vec3 f_source_D = Vec3::Zero();  ///< N, of cues that heed no motion
+  Vec3 f_source_D = Vec3::Zero();  ///< N, of cues and textures that heed no motion
 };
 
 /// From one time to another, ns. In floating point: a clock that leaps must not overflow.
