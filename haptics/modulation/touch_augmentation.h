@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "haptics/flight_record.h"
+#include "haptics/materials/texture.h"
 #include "haptics/modulation/modulation.h"
-#include "haptics/modulation/texture.h"
 #include "haptics/modulation/virtual_inclusion.h"
 
 /// What haptic augmented reality adds to a real object under one tool or two, in one tick: another

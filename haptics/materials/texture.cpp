@@ -1,4 +1,4 @@
-#include "haptics/modulation/texture.h"
+#include "haptics/materials/texture.h"
 
 #include <algorithm>
 #include <cmath>
