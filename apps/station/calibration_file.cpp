@@ -23,8 +23,8 @@ constexpr std::size_t kMostNumbers = 200'000;
 constexpr std::size_t kMostCoordinates = 1000;  // a matrix of as many rows and columns
 
 const EnumNames<CalibrationKind> kCalibrationKinds{
-    "camera",       "tool",     "workspace", "registration", "latency",
-    "force-sensor", "material", "friction",  "inclusion",    "subtasks"};
+    "camera",   "tool",     "workspace", "registration", "latency", "force-sensor",
+    "material", "friction", "inclusion", "texture",      "subtasks"};
 
 std::vector<double> numbersOf(const JsonFile& file, const json& list, const std::string& at) {
   if (!list.is_array() || list.size() > kMostNumbers) file.refuse(at, "must be a list of numbers");
