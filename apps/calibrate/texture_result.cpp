@@ -23,8 +23,8 @@ std::vector<double> shakingOf(const calibration::TextureStroke& stroke) {
 /// Rendered at the forces and speeds of strokes that were not used.
 struct TextureJudgement {
   double rms_dB = 0, worst_dB = 0, worst_Hz = 0;
-  MeasuredPlot plot{"Third octaves of a stroke not used", "1 to 14: 20 to 400 Hz",
-                    "dB above 1 mN rms", {}};
+  MeasuredPlot plot{
+      "Third octaves of a stroke not used", "1 to 14: 20 to 400 Hz", "dB above 1 mN rms", {}};
 };
 double aboveMillinewton(double power) { return 10 * std::log10(std::max(power / 1e-6, 1.0)); }
 
@@ -98,23 +98,22 @@ Result textureResult(const TextureSamples& samples, const Origin& origin) {
   r.file.parameters.push_back({"strongest_rms_N", {strongestOf(found.law)}});
   r.file.covariance.resize(0, 0);
   r.file.residuals = {"dB", found.level_sd_dB, {}, {}};
-  r.file.checks = {{"third octaves of strokes not used, rms over bands", judged.rms_dB,
-                    kTextureOff_dB, "dB"}};
+  r.file.checks = {
+      {"third octaves of strokes not used, rms over bands", judged.rms_dB, kTextureOff_dB, "dB"}};
   std::size_t count = 0;
   for (const calibration::TextureStroke& stroke : samples.strokes) count += stroke.size();
   r.file.data.samples = static_cast<int>(count);
   for (const double seconds : found.seconds)
     r.file.data.used += static_cast<int>(seconds / samples.dt);
   r.file.verdict = verdictOf(r.file.checks);
-  r.sentences = {"It shakes the tool with up to " + quantity(strongestOf(found.law), "N") +
-                     " rms; " + std::to_string(found.law.order) +
-                     " poles at each force and speed describe it.",
-                 "Between the forces and speeds that were used, third octaves are off by " +
-                     quantity(judged.rms_dB, "dB") + " (rms), at worst by " +
-                     quantity(judged.worst_dB, "dB") + " at " + quantity(judged.worst_Hz, "Hz") +
-                     "; a node's level is known to " + quantity(found.level_sd_dB, "dB") +
-                     ", its lowest third octave to " +
-                     quantity(found.lowest_band_sd_dB, "dB") + "."};
+  r.sentences = {
+      "It shakes the tool with up to " + quantity(strongestOf(found.law), "N") + " rms; " +
+          std::to_string(found.law.order) + " poles at each force and speed describe it.",
+      "Between the forces and speeds that were used, third octaves are off by " +
+          quantity(judged.rms_dB, "dB") + " (rms), at worst by " + quantity(judged.worst_dB, "dB") +
+          " at " + quantity(judged.worst_Hz, "Hz") + "; a node's level is known to " +
+          quantity(found.level_sd_dB, "dB") + ", its lowest third octave to " +
+          quantity(found.lowest_band_sd_dB, "dB") + "."};
   if (!found.advice.empty()) r.advice.push_back(found.advice);
   r.advice.push_back("It is of one tool: a heavier one, or another tip, is shaken otherwise.");
   r.plots.push_back(std::move(judged.plot));
@@ -127,8 +126,7 @@ std::vector<calibration::TextureStroke> readTextureStrokes(const std::filesystem
   if (table.rows() < 2)
     throw Error("holds fewer than two samples", file.string(), "Record for longer");
   *dt = 1e-4 * std::round(1e4 * (table.number(1, "t_s") - table.number(0, "t_s")));
-  if (!(*dt > 0))
-    throw Error("has times that do not rise", file.string(), "Give t_s in seconds");
+  if (!(*dt > 0)) throw Error("has times that do not rise", file.string(), "Give t_s in seconds");
   const bool in_mm = table.has("speed_mm_per_s");
   std::vector<calibration::TextureStroke> strokes(1);
   for (std::size_t i = 0; i < table.rows(); ++i) {

@@ -148,8 +148,7 @@ TextureSamples textureSamples(const CalibrateOptions& o) {
   samples.strokes = readTextureStrokes(o.strokes, samples.tool_mass, &samples.dt);
   samples.check = readTextureStrokes(o.check, samples.tool_mass, &dt);
   if (dt != samples.dt)
-    throw Error("is recorded at another rate than " + o.strokes, o.check,
-                "Record both at 1 kHz");
+    throw Error("is recorded at another rate than " + o.strokes, o.check, "Record both at 1 kHz");
   return samples;
 }
 
@@ -168,8 +167,8 @@ calibration::TextureStroke rubbed(const twin::RoughBench& rough, const twin::Rou
   const twin::RoughRecording recording = twin::strokeRough(surface, rough.tool, stroke);
   calibration::TextureStroke samples;
   for (std::size_t i = 0; i < recording.f_n.size(); ++i)
-    samples.push_back({recording.f_n[i], recording.speed[i],
-                       rough.tool.mass * recording.acceleration[i]});
+    samples.push_back(
+        {recording.f_n[i], recording.speed[i], rough.tool.mass * recording.acceleration[i]});
   return samples;
 }
 

@@ -18,7 +18,7 @@ struct CalibrateOptions {
   std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings,
       touches;
   std::string presses, strokes, without, above, beside, check, mockup = "middle",
-      surface = "sandpaper";
+                                                               surface = "sandpaper";
   double depth_mm = 0, mass_g = 0;
   std::vector<double> forces_N, speeds_mm_per_s;
   std::vector<double> down{0, 0, -1};

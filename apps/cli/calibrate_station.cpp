@@ -61,8 +61,7 @@ class TerminalGuide final : public Guide {
 station::Station stationOf(const CalibrateOptions& o) {
   const bool of_sample = o.kind == CalibrationKind::material ||
                          o.kind == CalibrationKind::friction ||
-                         o.kind == CalibrationKind::inclusion ||
-                         o.kind == CalibrationKind::texture;
+                         o.kind == CalibrationKind::inclusion || o.kind == CalibrationKind::texture;
   return station::readStation(o.station.empty()
                                   ? station::assetFile(of_sample ? "stations/palpation_bench.json"
                                                                  : "stations/virtual_bench.json")
@@ -202,7 +201,8 @@ constexpr Routine kRoutines[] = {
      "drawn over a simulated surface\n"
      "  palpa calibrate texture --strokes strokes.csv --check other.csv --mass-g 48 "
      "--forces 0.5,1 --speeds 50,100\n"
-     "Columns: t_s, every millisecond; force_N, normal; speed_mm_per_s; acceleration_m_per_s2 along "
+     "Columns: t_s, every millisecond; force_N, normal; speed_mm_per_s; acceleration_m_per_s2 "
+     "along "
      "the normal.\nStroke evenly for 10 s or more at each force and speed, and at some in between "
      "for --check."},
     {std::nullopt,
