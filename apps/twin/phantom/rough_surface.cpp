@@ -155,7 +155,7 @@ RoughSurface surfaceOf(const JsonFile& entry) {
 
 RoughBench readRoughBench(const std::filesystem::path& path) {
   const JsonFile file(path);
-  needKind(file, "surfaces", 1);
+  needKind(file, "rough_surfaces", 1);
   RoughBench bench;
   bench.tool.radius = 1e-3 * file.number("tip_radius_mm", 0.1, 10);
   bench.tool.mass = 1e-3 * file.number("tool_mass_g", 5, 500);
