@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/bench/contact_study.h"
+#include "apps/bench/texture_study.h"
 #include "apps/bench/timing.h"
 #include "apps/station/assets.h"
 #include "apps/task_pulse/pulse_file.h"
@@ -171,6 +172,39 @@ void benchHands(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
   print("held_object_slid_mm", dropped_mm, "mm", params);
 }
 
+/// Half way between the forces and speeds of the models: at none of those they were fitted to.
+void benchTextures(bool quick) {
+  constexpr std::uint64_t kFreshSeed = 900;
+  const twin::RoughBench rough =
+      twin::readRoughBench(station::assetFile("phantoms/textures/surfaces.json"));
+  for (const ShippedTexture& texture : shippedTextures(rough)) {
+    std::uint64_t seed = kFreshSeed;
+    double worst = 0, worst_hand = 0, largest = 0, limited = 0;
+    for (const double speed : {0.046, 0.082, 0.195}) {
+      for (const double force : {0.41, 1.38}) {
+        twin::RoughStroke stroke;
+        stroke.force = force;
+        stroke.speed = speed;
+        stroke.seed = ++seed;
+        if (quick && speed != 0.082) continue;
+        const TextureFigures figures = textureFigures(texture, rough.tool, stroke);
+        worst = std::max(worst, std::abs(worstOf(figures.commanded_dB)));
+        worst_hand = std::max(worst_hand, std::abs(worstOf(figures.hand_dB)));
+        largest = std::max(largest, figures.largest_N);
+        limited = std::max(limited, figures.limited);
+      }
+    }
+    nlohmann::json params = paramsOf(Noise::none);
+    params["texture"] = texture.surface.name;
+    params["at"] = "commanded";
+    print("texture_worst_dB", worst, "dB", params);
+    print("texture_largest_n", largest, "N", params);
+    print("texture_limited", limited, "1", params);
+    params["at"] = "the twin's hand";
+    print("texture_worst_dB", worst_hand, "dB", params);
+  }
+}
+
 }  // namespace
 
 void benchMaterial(const MaterialBenchOptions& options) {
@@ -179,6 +213,7 @@ void benchMaterial(const MaterialBenchOptions& options) {
                        station::assetFile("phantoms/mockups.tables.json"));
   const twin::PhantomTwin plain(phantoms.front().table, {});
   print("hc_param_error", lawError(), "1", paramsOf(Noise::none));
+  benchTextures(options.quick);
   for (const Noise noise : {Noise::none, Noise::low_passed, Noise::kalman}) {
     if (options.quick && noise != Noise::none) break;
     const KnownPhantom known = identifyPhantom(plain, noise);

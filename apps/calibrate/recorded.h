@@ -68,6 +68,11 @@ std::vector<calibration::TimedPoint> readTrack(const std::filesystem::path& file
 /// q_w, ...: the sensor in the device's base; force_x_N, ..., torque_x_Nm, ....
 std::vector<calibration::StaticReading> readStaticReadings(const std::filesystem::path& file);
 
+/// t_s; force_N, normal; speed_mm_per_s or speed_m_per_s along the surface; acceleration_m_per_s2
+/// of the tool. Where times leave a gap another stroke begins. `dt`: where the step goes, s.
+std::vector<calibration::TextureStroke> readTextureStrokes(const std::filesystem::path& file,
+                                                           double tool_mass, double* dt);
+
 struct RecordedViews {
   std::vector<calibration::BoardView> views;
   std::vector<std::string> unseen;  ///< pictures in which the board was not found

@@ -13,6 +13,7 @@
 #include "calibration/force_sensor.h"
 #include "calibration/hand_eye.h"
 #include "calibration/registration.h"
+#include "calibration/texture_model.h"
 
 namespace palpa::calibrate {
 
@@ -98,6 +99,17 @@ struct LumpSamples {
   double depth = 0;  ///< m
 };
 Result inclusionResult(const LumpSamples& samples, double tip_radius, const Origin& origin);
+
+/// Strokes over a rough surface, every `dt`, and others to judge by, at forces and speeds that were
+/// not used; shaking as the force that shakes the tool.
+struct TextureSamples {
+  std::vector<calibration::TextureStroke> strokes, check;
+  double dt = 1e-3;         ///< s
+  double tool_mass = 0.05;  ///< kg
+  calibration::TextureGrid grid;
+};
+/// What shakes a tool on a rough surface, over force and speed; judged by third octaves.
+Result textureResult(const TextureSamples& samples, const Origin& origin);
 
 /// The map is of the end effector's places where the touches know their lever. `found`: where it
 /// goes; may be null.

@@ -1,5 +1,7 @@
 #include "apps/cli/calibrate_samples.h"
 
+#include <cmath>
+
 #include "anatomy/base/error.h"
 #include "anatomy/base/nearest_word.h"
 #include "apps/calibrate/collect.h"
@@ -9,6 +11,7 @@
 #include "apps/cli/values.h"
 #include "apps/station/assets.h"
 #include "apps/twin/phantom/phantom_file.h"
+#include "apps/twin/phantom/rough_surface.h"
 
 namespace palpa::cli {
 
@@ -120,6 +123,95 @@ LumpSamples collectLump(const Scene& scene, const std::string& mockup) {
   return samples;
 }
 
+/// Where models are asked for, else the shipped rows.
+calibration::TextureGrid gridOf(const CalibrateOptions& o) {
+  calibration::TextureGrid grid;
+  if (!o.forces_N.empty()) grid.forces = o.forces_N;
+  if (!o.speeds_mm_per_s.empty()) grid.speeds = o.speeds_mm_per_s;
+  if (!o.speeds_mm_per_s.empty())
+    for (double& speed : grid.speeds) speed *= 1e-3;
+  return grid;
+}
+
+TextureSamples textureSamples(const CalibrateOptions& o) {
+  for (const auto& [name, file] :
+       {std::pair("--strokes", &o.strokes), std::pair("--check", &o.check)})
+    if (file->empty())
+      throw UsageError("is missing", name,
+                       "A texture needs strokes, and others to judge by; see --help");
+  if (o.mass_g <= 0)
+    throw UsageError("is missing", "--mass-g",
+                     "Say how heavy the tool is with its accelerometer: weigh both");
+  TextureSamples samples;
+  samples.tool_mass = 1e-3 * o.mass_g;
+  samples.grid = gridOf(o);
+  double dt = 0;
+  samples.strokes = readTextureStrokes(o.strokes, samples.tool_mass, &samples.dt);
+  samples.check = readTextureStrokes(o.check, samples.tool_mass, &dt);
+  if (dt != samples.dt)
+    throw Error("is recorded at another rate than " + o.strokes, o.check, "Record both at 1 kHz");
+  return samples;
+}
+
+const twin::RoughSurface& surfaceNamed(const twin::RoughBench& rough, const std::string& name) {
+  std::vector<std::string> known;
+  for (const twin::RoughSurface& surface : rough.surfaces) {
+    if (surface.name == name) return surface;
+    known.push_back(surface.name);
+  }
+  throw UsageError("is not a simulated surface" + didYouMean(name, known), "\"" + name + "\"",
+                   "There are: " + listed(known, "and"));
+}
+
+calibration::TextureStroke rubbed(const twin::RoughBench& rough, const twin::RoughSurface& surface,
+                                  const twin::RoughStroke& stroke) {
+  const twin::RoughRecording recording = twin::strokeRough(surface, rough.tool, stroke);
+  calibration::TextureStroke samples;
+  for (std::size_t i = 0; i < recording.f_n.size(); ++i)
+    samples.push_back(
+        {recording.f_n[i], recording.speed[i], rough.tool.mass * recording.acceleration[i]});
+  return samples;
+}
+
+/// At every node of the grid, and half way between neighbours to judge by.
+TextureSamples collectTexture(const CalibrateOptions& o, Guide& guide) {
+  constexpr double kRubFor_s = 20, kCheckFor_s = 30;
+  const twin::RoughBench rough =
+      twin::readRoughBench(station::assetFile("phantoms/textures/surfaces.json"));
+  const twin::RoughSurface& surface = surfaceNamed(rough, o.surface);
+  TextureSamples samples;
+  samples.tool_mass = rough.tool.mass;
+  samples.grid = gridOf(o);
+  const std::vector<double>&forces = samples.grid.forces, &speeds = samples.grid.speeds;
+  twin::RoughStroke stroke;
+  stroke.seed = 1000 * o.seed;
+  const int all = static_cast<int>(forces.size() * speeds.size());
+  stroke.seconds = kRubFor_s;
+  for (const double force : forces)
+    for (const double speed : speeds) {
+      ++stroke.seed;
+      stroke.force = force;
+      stroke.speed = speed;
+      samples.strokes.push_back(rubbed(rough, surface, stroke));
+      guide.progress("Strokes", static_cast<int>(samples.strokes.size()), all, surface.name);
+    }
+  stroke.seconds = kCheckFor_s;
+  for (std::size_t f = 0; f + 1 < forces.size(); f += 2)
+    for (std::size_t v = 0; v + 1 < speeds.size(); v += 3) {
+      ++stroke.seed;
+      stroke.force = std::sqrt(forces[f] * forces[f + 1]);
+      stroke.speed = std::sqrt(speeds[v] * speeds[v + 1]);
+      samples.check.push_back(rubbed(rough, surface, stroke));
+    }
+  if (samples.check.empty()) {  // one row or column: another stroke at its first node
+    ++stroke.seed;
+    stroke.force = forces.front();
+    stroke.speed = speeds.front();
+    samples.check.push_back(rubbed(rough, surface, stroke));
+  }
+  return samples;
+}
+
 }  // namespace
 
 Result fromFiles(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
@@ -143,6 +235,7 @@ Result fromFiles(const CalibrateOptions& o, const station::Station& station, con
         station.sample ? station.sample->tip_radius : station::SoftSample{}.tip_radius, origin);
   if (o.kind == CalibrationKind::object)
     return objectResult(touchesIn(readFelt(o.touches)), objectArea(), origin);
+  if (o.kind == CalibrationKind::texture) return textureResult(textureSamples(o), origin);
   return forceSensorResult(readStaticReadings(o.readings),
                            Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
 }
@@ -176,6 +269,8 @@ Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& orig
     return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
   if (o.kind == CalibrationKind::object)
     return objectResult(collectObject(scene, o.mockup, objectArea()), objectArea(), origin);
+  if (o.kind == CalibrationKind::texture)
+    return textureResult(collectTexture(o, scene.guide), origin);
   throw UsageError("is not a calibration routine", "palpa calibrate " + o.name(),
                    "See palpa calibrate --help");
 }

@@ -61,7 +61,8 @@ class TerminalGuide final : public Guide {
 station::Station stationOf(const CalibrateOptions& o) {
   const bool of_sample = o.kind == CalibrationKind::material ||
                          o.kind == CalibrationKind::friction ||
-                         o.kind == CalibrationKind::inclusion || o.kind == CalibrationKind::object;
+                         o.kind == CalibrationKind::inclusion ||
+                         o.kind == CalibrationKind::object || o.kind == CalibrationKind::texture;
   return station::readStation(o.station.empty()
                                   ? station::assetFile(of_sample ? "stations/palpation_bench.json"
                                                                  : "stations/virtual_bench.json")
@@ -202,6 +203,16 @@ constexpr Routine kRoutines[] = {
      "simulated hand touches a block with two ribs below, where the map knows least\n"
      "  palpa calibrate object --touches touches.csv\n"
      "Columns as for material: touches 3 to 5 mm deep, each pressed, held, slid 10 mm, and lifted"},
+    {CalibrationKind::texture,
+     "What shakes a tool on a rough surface, over force and speed: from strokes",
+     "Examples:\n  palpa calibrate texture --surface ribbed\n      on the virtual bench: a tool is "
+     "drawn over a simulated surface\n"
+     "  palpa calibrate texture --strokes strokes.csv --check other.csv --mass-g 48 "
+     "--forces 0.5,1 --speeds 50,100\n"
+     "Columns: t_s, every millisecond; force_N, normal; speed_mm_per_s; acceleration_m_per_s2 "
+     "along "
+     "the normal.\nStroke evenly for 10 s or more at each force and speed, and at some in between "
+     "for --check."},
     {std::nullopt,
      "Everything, one after the other, with a page that says whether the station is ready",
      "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: "
@@ -252,6 +263,22 @@ void addFiles(CLI::App* command, CalibrateOptions* o) {
     file("--touches", &o->touches, "Recorded touches, one after the other");
     o->mockup = "growing skin";
     command->add_option("--mockup", o->mockup, "Simulated object on the virtual bench")
+        ->type_name("NAME");
+  }
+  if (kind == CalibrationKind::texture) {
+    file("--strokes", &o->strokes, "Recorded strokes, even ones at each force and speed");
+    file("--check", &o->check, "Recorded strokes at other forces and speeds, to check the result");
+    command->add_option("--mass-g", o->mass_g, "Mass of the tool with its accelerometer")
+        ->check(inRange(1.0, 1000.0, "g"));
+    command->add_option("--forces", o->forces_N, "Normal forces to make models at, N")
+        ->delimiter(',')
+        ->check(inRange(0.05, 20.0, "N"))
+        ->type_name("N,...");
+    command->add_option("--speeds", o->speeds_mm_per_s, "Speeds to make models at, mm/s")
+        ->delimiter(',')
+        ->check(inRange(10.0, 1000.0, "mm/s"))
+        ->type_name("MM/S,...");
+    command->add_option("--surface", o->surface, "Simulated surface on the virtual bench")
         ->type_name("NAME");
   }
   if (kind == CalibrationKind::force_sensor) {

@@ -97,6 +97,8 @@ haptics::TickConfig ComparisonWorld::tickConfig(const SessionOptions& options) c
   tick.passivity = station.passivity;
   tick.X_ET = pack(station.X_ET);
   tick.touch = station::touchOf(task.library);
+  tick.touch.texture =
+      station::bounded(tick.touch.texture, station.safety.max_slew_N_per_s, options.rate_Hz);
   tick.touch.other_friction = engine == Engine::friction;
   tick.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
   tick.period_ns = std::llround(1e9 / options.rate_Hz);

@@ -99,6 +99,8 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
   config.passivity = station.passivity;
   config.X_ET = pack(station.X_ET);
   config.touch = station::touchOf(task.library);
+  config.touch.texture =
+      station::bounded(config.touch.texture, station.safety.max_slew_N_per_s, options.rate_Hz);
   config.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
   config.augmentations = station::onDevice(task.augmentations, station);
   for (std::size_t i = 0; i < task.library.kinds.size(); ++i)

@@ -28,6 +28,7 @@ enum class CalibrationKind : std::uint8_t {
   friction,
   inclusion,
   object,
+  texture,
   subtasks
 };
 

@@ -194,6 +194,7 @@ LumpLibrary readLumps(const std::filesystem::path& path) {
   library.of_surface = "the library of lumps";
   library.tip_radius = 1e-3 * file.number("tip_radius_mm", 1, 30);
   library.simulated = surface.simulated || friction.simulated;
+  if (file.has("texture")) library.texture = readTexture(folder / file.text("texture"));
   for (const JsonFile& entry : file.entries("kinds"))
     library.kinds.push_back(kindAt(entry, folder, &library.simulated));
   if (library.kinds.empty() || library.kinds.size() > haptics::kMostLumpKinds)
@@ -224,6 +225,7 @@ haptics::TouchAugmentation touchOf(const LumpLibrary& library) {
   touch.surface.contact.x0 = library.x0;
   touch.surface.contact.friction = library.friction;
   touch.surface.wanted = library.friction;
+  touch.texture = library.texture;
   touch.tip_radius = library.tip_radius;
   for (std::size_t i = 0; i < library.kinds.size(); ++i) touch.kinds[i] = library.kinds[i].law;
   return touch;

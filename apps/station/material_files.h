@@ -36,8 +36,9 @@ struct LumpLibrary {
   haptics::HuntCrossley surface;
   double x0 = 0;  ///< m
   haptics::Dahl friction;
-  double tip_radius = 0;   ///< m
-  bool simulated = false;  ///< identified on the virtual bench
+  haptics::TextureLaw texture;  ///< that is added to the surface; no speeds: none
+  double tip_radius = 0;        ///< m
+  bool simulated = false;       ///< identified on the virtual bench
   /// By what the surface is known: "the library of lumps", "this station's calibration of
   /// 2026-11-02"
   std::string of_surface;
@@ -53,6 +54,15 @@ LumpLibrary readLumps(const std::filesystem::path& file);
 /// where it has them: the sample that lies there is touched, not the library's. Throws as
 /// `readLumps` for a law that cannot be; whether a calibration passed, the station's verdict says.
 LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations);
+
+/// A texture as `palpa calibrate texture` left it, without a bound. Throws Error for a calibration
+/// that failed, one of another kind, and figures that no texture has.
+haptics::TextureLaw readTexture(const std::filesystem::path& file);
+
+/// Bounded for a limiter of this slew (haptics::largestTexture). Throws UsageError for a loop that
+/// does not run at 1 kHz, and for a texture three times whose rms, at some force and speed, is
+/// above the bound. Without a texture nothing is asked.
+haptics::TextureLaw bounded(haptics::TextureLaw texture, double slew_N_per_s, double rate_Hz);
 
 /// What the loop has to know of the library.
 haptics::TouchAugmentation touchOf(const LumpLibrary& library);

@@ -56,6 +56,7 @@ NeedleContact touchedContact(const TickConfig& config, TickState& state, TickFra
   frame.f_pulse_D =
       unpack(config.X_DP.q).normalized() *
       feelPulse(config.pulse, commands.artery, touch, frame.record.t_ns, dt, &state.pulse);
+  frame.f_source_D += unpack(config.X_DP.q).normalized() * now.f_source[0];
   return addedIn(config, now.f_d[0], now.touch[0].x, now.touch[0].f_n);
 }
 
@@ -89,13 +90,18 @@ namespace {
 struct AddedForces {
   std::array<Vec3, 2> f_d{Vec3::Zero(), Vec3::Zero()};
   std::array<double, 2> x{}, f_n{};
+  /// of f_d, what asks for no motion
+  std::array<Vec3, 2> f_source{Vec3::Zero(), Vec3::Zero()};
 };
 
 AddedForces pressed(const PairConfig& config, PairState& state,
                     const std::array<ToolTouch, 2>& tools, const PlacedLumps& lumps,
                     double dt) noexcept {
   const AugmentedTouch now = augmentTouch(config.tools[0].touch, lumps, tools, dt, &state.touch);
-  return {now.f_d, {now.touch[0].x, now.touch[1].x}, {now.touch[0].f_n, now.touch[1].f_n}};
+  return {now.f_d,
+          {now.touch[0].x, now.touch[1].x},
+          {now.touch[0].f_n, now.touch[1].f_n},
+          now.f_source};
 }
 
 /// Where one of the tools is not believed it feels nothing: no contact.
@@ -106,7 +112,11 @@ AddedForces squeezed(const PairConfig& config, PairState& state,
   law.weight_factor *= static_cast<double>(commands.squeeze_weight);
   const Squeezed now = modulateSqueeze(law, {tools[0].f_r, tools[1].f_r},
                                        {tools[0].p_M, tools[1].p_M}, &state.squeeze);
-  return {now.f_d, {now.x, now.x}, {now.F, now.F}};
+  AddedForces added;
+  added.f_d = now.f_d;
+  added.x = {now.x, now.x};
+  added.f_n = {now.F, now.F};
+  return added;
 }
 
 }  // namespace
@@ -132,10 +142,12 @@ std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
                                 ? squeezed(config, state, tools, commands)
                                 : pressed(config, state, tools, commands.lumps, frames[0].input.dt);
   std::array<FlightRecord, 2> records;
-  for (std::size_t t = 0; t < 2; ++t)
+  for (std::size_t t = 0; t < 2; ++t) {
+    frames[t].f_source_D += unpack(config.tools[t].X_DP.q).normalized() * added.f_source[t];
     records[t] =
         finishTick(config.tools[t], state.tools[t],
                    addedIn(config.tools[t], added.f_d[t], added.x[t], added.f_n[t]), frames[t]);
+  }
   records[1].tool = 1;
   return records;
 }

@@ -183,7 +183,7 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   record.subtasks = static_cast<std::uint8_t>(added.subtasks);
   record.augmenting = static_cast<std::uint8_t>(added.active);
   record.began = static_cast<std::uint8_t>(added.began);
-  frame->f_source_D = added.f_source + frame->f_pulse_D;
+  frame->f_source_D += added.f_source + frame->f_pulse_D;
 }
 
 }  // namespace palpa::haptics

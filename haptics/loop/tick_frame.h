@@ -17,7 +17,7 @@ struct TickFrame {
   bool felt = false;             ///< the readings are believed: there is a contact to compute
   Vec3 f_hold_D = Vec3::Zero();  ///< N: what holds the handle up or in its place; no contact
   Vec3 f_pulse_D = Vec3::Zero();   ///< N, of an artery under the tool
-  Vec3 f_source_D = Vec3::Zero();  ///< N, of the pulse and of cues that heed no motion
+  Vec3 f_source_D = Vec3::Zero();  ///< N, of pulse, texture and cues that heed no motion
 };
 
 /// From one time to another, ns. In floating point: a clock that leaps must not overflow.

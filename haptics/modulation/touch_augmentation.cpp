@@ -35,7 +35,11 @@ AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lum
   std::array<InclusionContact, 2> contacts;
   for (std::size_t t = 0; t < 2; ++t) {
     now.touch[t] = feel(law, tools[t], dt, t, state);
-    now.f_d[t] = now.touch[t].f_d;
+    const Modulated& touch = now.touch[t];
+    now.f_source[t] = textureForce(law.texture, touch.contact ? touch.f_n : 0, touch.slid, dt,
+                                   &state->texture[t]) *
+                      touch.u_n;
+    now.f_d[t] = touch.f_d + now.f_source[t];
     contacts[t] = {now.touch[t].contact, Vec3(tools[t].p_M - law.tip_radius * now.touch[t].u_n),
                    now.touch[t].u_n, now.touch[t].x, law.tip_radius};
   }

@@ -5,11 +5,12 @@
 #include <type_traits>
 
 #include "haptics/flight_record.h"
+#include "haptics/materials/texture.h"
 #include "haptics/modulation/modulation.h"
 #include "haptics/modulation/virtual_inclusion.h"
 
 /// What haptic augmented reality adds to a real object under one tool or two, in one tick: another
-/// stiffness and friction, lumps that are not there.
+/// stiffness and friction, a texture, lumps that are not there.
 namespace palpa::haptics {
 
 struct TouchAugmentation {
@@ -19,6 +20,7 @@ struct TouchAugmentation {
   double tip_radius = 0;            ///< m, of both tools: each touches at p_M - tip_radius u_n
   std::uint8_t other_friction = 0;  ///< 0: friction stays the real one, and nothing is done for it
   std::uint8_t reserved[7]{};
+  TextureLaw texture;  ///< of the whole surface; no speeds: none
 };
 static_assert(std::is_trivially_copyable_v<TouchAugmentation>);
 
@@ -33,6 +35,7 @@ struct ToolTouch {
 struct TouchAugmentationState {
   std::array<FrictionModulationState, 2> surface;
   std::array<InclusionState, kMostLumps> lumps;
+  std::array<TextureState, 2> texture;
   std::array<Packed3, 2> p_before{};    ///< m
   std::array<std::uint32_t, 2> held{};  ///< p_before is there
 };
@@ -42,12 +45,15 @@ struct AugmentedTouch {
   std::array<Modulated, 2> touch;  ///< what was felt of the real object, and what is changed of it
   std::array<Vec3, 2> f_d{Vec3::Zero(),
                           Vec3::Zero()};  ///< N, of the devices on the tools, all together
-  std::array<Packed3, kMostLumps> d{};    ///< m, how far the lumps are pushed
+  /// N, the part of f_d that asks for no motion: a source, left out of the passivity's account
+  std::array<Vec3, 2> f_source{Vec3::Zero(), Vec3::Zero()};
+  std::array<Packed3, kMostLumps> d{};  ///< m, how far the lumps are pushed
   int iterations = 0;  ///< of all lumps' solvers; at most kMostLumps kMostInclusionIterations
 };
 
 ///     f_d* = (k~ x* - f_n*) u_n*  [+ f_targ* - f_real*]
-///            +  sum over lumps (f_T* + f_t* (f_T* . u_n*) / f_n*)
+///            +  w* u_n*  +  sum over lumps (f_T* + f_t* (f_T* . u_n*) / f_n*)
+/// w: of the texture (`textureForce`), by the real normal force and what slides.
 /// f_targ: of mu and B of the wanted friction, times the tool's factor (0 or more; else 1).
 /// Each lump feels both tools, and no other lump. Where there is no contact there is no force. No
 /// allocation, no exception.

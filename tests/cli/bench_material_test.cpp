@@ -72,6 +72,19 @@ double worstOf(const Lines& lines, const std::string& motion) {
   return most;
 }
 
+/// Of every texture, in third octaves.
+double worstTexture(const Lines& lines, const std::string& at) {
+  double most = 0;
+  std::size_t count = 0;
+  for (const auto& line : lines) {
+    if (line["metric"] != "texture_worst_dB" || line["params"]["at"] != at) continue;
+    most = std::max(most, line["value"].get<double>());
+    ++count;
+  }
+  EXPECT_EQ(count, 4u) << at;
+  return most;
+}
+
 TEST(BenchMaterial, HoldsWhatIsPromised) {
   const Folder here;
   std::vector<std::string> arguments{"bench", "material"};
@@ -88,6 +101,9 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_EQ(valuesOf(lines, "squeeze_rel_error").size(), 6u);
   EXPECT_LE(worst(lines, "squeeze_rel_error"), 0.02);
   EXPECT_LE(worst(lines, "friction_rel_error"), 0.07);
+  EXPECT_LE(worstTexture(lines, "commanded"), 2);
+  EXPECT_GT(worstTexture(lines, "the twin's hand"), 0) << "printed, not judged: drives are slow";
+  EXPECT_EQ(worst(lines, "texture_limited"), 0) << "the limiter lets it all through";
   expectLumps(lines, 1);
   expectLumps(lines, 2);
   EXPECT_LE(worstOf(lines, "side by side"), 0.09);

@@ -27,6 +27,7 @@
 #include "apps/twin/operator.h"
 #include "apps/twin/phantom/layered_phantom.h"
 #include "apps/twin/phantom/phantom_file.h"
+#include "apps/twin/phantom/rough_surface.h"
 #include "apps/twin/tracking_model.h"
 #include "ar/boards/board.h"
 #include "calibration/camera_model.h"
@@ -196,67 +197,73 @@ void sealCalibration(json* file) {
 }
 
 std::vector<Kind> materialKinds() {
-  return {
-      {.name = "needle_material",
-       .samples = {{"materials/needle.json", json::object()},
-                   {"materials/bone_pin.json", json::object()}},
-       .read = [](const fs::path& file) { station::readNeedleFile(file); },
-       .stricter = {"/skin/puncture_(low|high)_N.*"},  // the least is not above the most
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "lumps",
-       .samples = {{"materials/lumps.json", json::object()}},
-       .read = [](const fs::path& file) { station::readLumps(file); },
-       .stricter = {"/surface.*", "/friction.*", "/kinds/./identified.*"},  // files that must exist
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "calibration",
-       .samples = {{"materials/lumps/large.json", json::object()},
-                   {"materials/lumps/material.json",
-                    {{"rests_on", {{{"kind", "friction"}, {"sha256", "0"}}}},
-                     {"data", {{"files", {{{"name", "samples.csv"}, {"sha256", "0"}}}}}}}}},
-       .read = [](const fs::path& file) { station::readCalibration(file); },
-       // A covariance is as large as its coordinates, and symmetric; no more samples are used than
-       // there were.
-       .stricter = {"/covariance.*", "/data/(samples|used).*"},
-       .forgiving = {"/covariance/coordinates as (null|\\{\\})"},
-       .elsewhere = {"/sha256.*"},  // renewed after each change
-       .free = {"/parameters/.*"},  // each routine has its own
-       .seal = sealCalibration},
-      {.name = "phantoms",
-       .samples = {{"phantoms/mockups.json", json::object()}},
-       .read = [](const fs::path& file) { twin::readPhantoms(file); },
-       // Tools stay on the block and apart, lumps in it.
-       .stricter = {"/tool_radius_mm.*", "/block/.*", "/table/.*", "/pairs/.*",
-                    "/phantoms/./lump/.*"},
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "phantom_tables",
-       .samples = {{"phantoms/mockups.tables.json", json::object()}},
-       .read =
-           [](const fs::path& file) {
-             twin::readSolved(file.parent_path() / "mockups.json", file);
-           },
-       // Of the phantoms as they are, with as many cells as these ask for.
-       .stricter = {"/made_of.*", "/tables.*", "/pairs.*"},
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "layered_phantoms",
-       .samples = {{"phantoms/layered.json", json::object()}},
-       .read = [](const fs::path& file) { twin::readLayered(file); },
-       // The tool stays on the block.
-       .stricter = {"/tool_radius_mm.*", "/block/.*", "/table/.*"},
-       .forgiving = {},
-       .elsewhere = {}},
-      {.name = "layered_tables",
-       .samples = {{"phantoms/layered.tables.json", json::object()}},
-       .read =
-           [](const fs::path& file) {
-             twin::readSolvedLayered(file.parent_path() / "layered.json", file);
-           },
-       .stricter = {"/made_of.*", "/tables.*"},
-       .forgiving = {},
-       .elsewhere = {}}};
+  return {{.name = "needle_material",
+           .samples = {{"materials/needle.json", json::object()},
+                       {"materials/bone_pin.json", json::object()}},
+           .read = [](const fs::path& file) { station::readNeedleFile(file); },
+           .stricter = {"/skin/puncture_(low|high)_N.*"},  // the least is not above the most
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "lumps",
+           .samples = {{"materials/lumps.json", json::object()}},
+           .read = [](const fs::path& file) { station::readLumps(file); },
+           // files that must exist
+           .stricter = {"/surface.*", "/friction.*", "/texture.*", "/kinds/./identified.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "calibration",
+           .samples = {{"materials/lumps/large.json", json::object()},
+                       {"materials/lumps/material.json",
+                        {{"rests_on", {{{"kind", "friction"}, {"sha256", "0"}}}},
+                         {"data", {{"files", {{{"name", "samples.csv"}, {"sha256", "0"}}}}}}}}},
+           .read = [](const fs::path& file) { station::readCalibration(file); },
+           // A covariance is as large as its coordinates, and symmetric; no more samples are used
+           // than there were.
+           .stricter = {"/covariance.*", "/data/(samples|used).*"},
+           .forgiving = {"/covariance/coordinates as (null|\\{\\})"},
+           .elsewhere = {"/sha256.*"},  // renewed after each change
+           .free = {"/parameters/.*"},  // each routine has its own
+           .seal = sealCalibration},
+          {.name = "phantoms",
+           .samples = {{"phantoms/mockups.json", json::object()}},
+           .read = [](const fs::path& file) { twin::readPhantoms(file); },
+           // Tools stay on the block and apart, lumps in it.
+           .stricter = {"/tool_radius_mm.*", "/block/.*", "/table/.*", "/pairs/.*",
+                        "/phantoms/./lump/.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "rough_surfaces",
+           .samples = {{"phantoms/textures/surfaces.json", json::object()}},
+           .read = [](const fs::path& file) { twin::readRoughBench(file); },
+           .stricter = {},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "phantom_tables",
+           .samples = {{"phantoms/mockups.tables.json", json::object()}},
+           .read =
+               [](const fs::path& file) {
+                 twin::readSolved(file.parent_path() / "mockups.json", file);
+               },
+           // Of the phantoms as they are, with as many cells as these ask for.
+           .stricter = {"/made_of.*", "/tables.*", "/pairs.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "layered_phantoms",
+           .samples = {{"phantoms/layered.json", json::object()}},
+           .read = [](const fs::path& file) { twin::readLayered(file); },
+           // The tool stays on the block.
+           .stricter = {"/tool_radius_mm.*", "/block/.*", "/table/.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "layered_tables",
+           .samples = {{"phantoms/layered.tables.json", json::object()}},
+           .read =
+               [](const fs::path& file) {
+                 twin::readSolvedLayered(file.parent_path() / "layered.json", file);
+               },
+           .stricter = {"/made_of.*", "/tables.*"},
+           .forgiving = {},
+           .elsewhere = {}}};
 }
 
 std::vector<Kind> patientKinds() {
