@@ -8,7 +8,7 @@
 #include "apps/bench/timing.h"
 #include "apps/twin/device_twin.h"
 #include "apps/twin/phantom/phantom_file.h"
-#include "calibration/contact_laws.h"
+#include "calibration/touch/contact_laws.h"
 #include "haptics/materials/force_laws.h"
 #include "haptics/modulation/modulation.h"
 #include "haptics/modulation/pulse.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "calibration/contact_laws.h"
+#include "calibration/touch/contact_laws.h"
 #include "haptics/loop/tick.h"
 
 namespace palpa::bench {

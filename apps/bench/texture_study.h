@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/twin/phantom/rough_surface.h"
-#include "calibration/third_octave.h"
+#include "calibration/touch/third_octave.h"
 #include "haptics/materials/texture.h"
 
 namespace palpa::bench {

@@ -6,7 +6,7 @@
 #include "anatomy/base/error.h"
 #include "apps/calibrate/learnt_object.h"
 #include "apps/calibrate/recorded.h"
-#include "calibration/contact_laws.h"
+#include "calibration/touch/contact_laws.h"
 #include "haptics/sensors/wrench_filter.h"
 
 namespace palpa::calibrate {

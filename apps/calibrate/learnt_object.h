@@ -4,8 +4,8 @@
 
 #include "apps/calibrate/collect.h"
 #include "apps/calibrate/results.h"
-#include "calibration/object_map.h"
-#include "calibration/relaxing_press.h"
+#include "calibration/touch/object_map.h"
+#include "calibration/touch/relaxing_press.h"
 
 /// An object's stiffness and friction all over its top, learnt by touching it here and there.
 namespace palpa::calibrate {

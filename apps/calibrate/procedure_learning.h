@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "apps/calibrate/subtask_recordings.h"
-#include "calibration/agreement.h"
-#include "calibration/interactive_procedures.h"
+#include "calibration/parts/agreement.h"
+#include "calibration/parts/interactive_procedures.h"
 
 /// Recordings beside the library of interactive procedures: what their labels say in its words, a
 /// library made from them, how far what is matched agrees. Pure but for the recordings.

@@ -9,11 +9,11 @@
 #include "calibration/camera_calibration.h"
 #include "calibration/camera_model.h"
 #include "calibration/clock_offset.h"
-#include "calibration/contact_laws.h"
 #include "calibration/force_sensor.h"
 #include "calibration/hand_eye.h"
 #include "calibration/registration.h"
-#include "calibration/texture_model.h"
+#include "calibration/touch/contact_laws.h"
+#include "calibration/touch/texture_model.h"
 
 namespace palpa::calibrate {
 

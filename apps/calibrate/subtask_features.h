@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/interaction_features.h"
+#include "calibration/parts/interaction_features.h"
 #include "haptics/augmentation/learned_part.h"
 #include "haptics/contact/contact_parts.h"
 #include "haptics/loop/tick_config.h"

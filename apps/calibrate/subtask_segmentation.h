@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/calibrate/subtask_features.h"
-#include "calibration/agreement.h"
-#include "calibration/hidden_markov.h"
+#include "calibration/parts/agreement.h"
+#include "calibration/parts/hidden_markov.h"
 
 /// A segmentation of recorded trials by a hidden Markov model, beside the hand-written one. Pure:
 /// sequences in, states and agreement out.

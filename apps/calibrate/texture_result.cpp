@@ -4,7 +4,7 @@
 #include "anatomy/base/error.h"
 #include "apps/calibrate/recorded.h"
 #include "apps/calibrate/results.h"
-#include "calibration/third_octave.h"
+#include "calibration/touch/third_octave.h"
 
 namespace palpa::calibrate {
 namespace {

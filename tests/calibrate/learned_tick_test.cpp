@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/calibrate/subtask_features.h"
-#include "calibration/hidden_markov.h"
+#include "calibration/parts/hidden_markov.h"
 #include "haptics/loop/tick.h"
 
 /// What was learned from recordings, in the loop that they come from: the tick's belief against the

@@ -1,4 +1,4 @@
-#include "calibration/agreement.h"
+#include "calibration/parts/agreement.h"
 
 #include <gtest/gtest.h>
 

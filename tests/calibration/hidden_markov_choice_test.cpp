@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "calibration/hidden_markov.h"
+#include "calibration/parts/hidden_markov.h"
 #include "tests/calibration/complaint.h"
 #include "tests/calibration/planted_trials.h"
 

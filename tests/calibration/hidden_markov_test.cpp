@@ -1,4 +1,4 @@
-#include "calibration/hidden_markov.h"
+#include "calibration/parts/hidden_markov.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "calibration/agreement.h"
+#include "calibration/parts/agreement.h"
 #include "tests/calibration/complaint.h"
 #include "tests/calibration/planted_trials.h"
 

@@ -1,4 +1,4 @@
-#include "calibration/interactive_procedures.h"
+#include "calibration/parts/interactive_procedures.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/random.h"
-#include "calibration/agreement.h"
+#include "calibration/parts/agreement.h"
 #include "tests/support/scratch_folder.h"
 
 /// Features against motions worked out by hand; matching and profiles against planted ones.

@@ -1,4 +1,4 @@
-#include "calibration/object_map.h"
+#include "calibration/touch/object_map.h"
 
 #include <gtest/gtest.h>
 

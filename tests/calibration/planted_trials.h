@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "anatomy/base/random.h"
-#include "calibration/hidden_markov.h"
+#include "calibration/parts/hidden_markov.h"
 
 /// Trials of which the states are known.
 namespace palpa::calibration::test {

@@ -1,4 +1,4 @@
-#include "calibration/contact_laws.h"
+#include "calibration/touch/contact_laws.h"
 
 #include <gtest/gtest.h>
 

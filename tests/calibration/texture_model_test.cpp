@@ -1,4 +1,4 @@
-#include "calibration/texture_model.h"
+#include "calibration/touch/texture_model.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "anatomy/base/random.h"
-#include "calibration/third_octave.h"
+#include "calibration/touch/third_octave.h"
 #include "complaint.h"
 
 /// A texture that was made by a known filter is found again; strokes that cannot tell it are

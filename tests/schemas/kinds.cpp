@@ -32,7 +32,7 @@
 #include "ar/boards/board.h"
 #include "calibration/camera_model.h"
 #include "calibration/expert_path.h"
-#include "calibration/interactive_procedures.h"
+#include "calibration/parts/interactive_procedures.h"
 #include "tests/support/files.h"
 
 namespace palpa::schemas {

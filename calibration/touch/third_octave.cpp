@@ -1,4 +1,4 @@
-#include "calibration/third_octave.h"
+#include "calibration/touch/third_octave.h"
 
 #include <algorithm>
 #include <cmath>

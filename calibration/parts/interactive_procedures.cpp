@@ -1,4 +1,4 @@
-#include "calibration/interactive_procedures.h"
+#include "calibration/parts/interactive_procedures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/interaction_features.h"
+#include "calibration/parts/interaction_features.h"
 
 /// A library of interactive procedures, and recordings matched to it: which procedure a hand was
 /// performing, step by step.

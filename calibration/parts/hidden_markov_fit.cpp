@@ -5,7 +5,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/random.h"
-#include "calibration/hidden_markov.h"
+#include "calibration/parts/hidden_markov.h"
 
 namespace palpa::calibration {
 namespace {

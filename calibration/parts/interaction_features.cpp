@@ -1,4 +1,4 @@
-#include "calibration/interaction_features.h"
+#include "calibration/parts/interaction_features.h"
 
 #include <algorithm>
 #include <array>

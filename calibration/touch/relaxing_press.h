@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "calibration/contact_laws.h"
-#include "calibration/object_map.h"
+#include "calibration/touch/contact_laws.h"
+#include "calibration/touch/object_map.h"
 
 /// What a soft thing is like under one press, once what it loses while it is held is taken off.
 namespace palpa::calibration {

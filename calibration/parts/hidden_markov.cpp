@@ -1,4 +1,4 @@
-#include "calibration/hidden_markov.h"
+#include "calibration/parts/hidden_markov.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "anatomy/base/error.h"
-#include "calibration/agreement.h"
+#include "calibration/parts/agreement.h"
 
 namespace palpa::calibration {
 namespace {

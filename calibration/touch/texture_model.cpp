@@ -1,4 +1,4 @@
-#include "calibration/texture_model.h"
+#include "calibration/touch/texture_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "calibration/relaxing_press.h"
+#include "calibration/touch/relaxing_press.h"
 
 #include <algorithm>
 #include <cmath>

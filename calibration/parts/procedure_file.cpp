@@ -9,7 +9,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
 #include "anatomy/base/whole_file.h"
-#include "calibration/interactive_procedures.h"
+#include "calibration/parts/interactive_procedures.h"
 
 namespace palpa::calibration {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "apps/bench/timing.h"
-#include "apps/bench/tracking_scene.h"
+#include "apps/bench/tracking/tracking_scene.h"
 #include "ar/tracking/board_pose.h"
 #include "ar/tracking/board_tracker.h"
 #include "calibration/rotation.h"

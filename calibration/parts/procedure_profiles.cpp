@@ -3,7 +3,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/random.h"
-#include "calibration/interactive_procedures.h"
+#include "calibration/parts/interactive_procedures.h"
 
 namespace palpa::calibration {
 namespace {
