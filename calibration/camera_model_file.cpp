@@ -21,12 +21,12 @@ constexpr int kVersion = 1;
 constexpr std::uintmax_t kLargestFile = 4 << 20;  // bytes; a real one has a few thousand
 
 constexpr int kLargestSide = 1 << 30;  // px; what is too large to be a picture is refused later
-constexpr const char* kRemedy =
+constexpr const char* kCameraRemedy =
     "Give a camera calibration: OpenCV's YAML or XML, or our JSON ('palpa calibrate camera' writes "
     "one)";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-  throw Error(what, file.string(), kRemedy);
+  throw Error(what, file.string(), kCameraRemedy);
 }
 
 std::string textOf(const fs::path& file) {
@@ -135,7 +135,7 @@ CameraModel fromOpenCv(const std::string& text, const fs::path& file) {
 }
 
 JsonFile ownFile(const std::string& text, const fs::path& name) {
-  JsonFile file = JsonFile::ofText(text, name.string(), kRemedy);
+  JsonFile file = JsonFile::ofText(text, name.string(), kCameraRemedy);
   if (!file.json().is_object()) refuse(name, "is damaged: it holds no fields");
   if (file.has("type") && file.text("type") != "camera_model")
     file.refuse("type", "must be \"camera_model\"");

@@ -115,7 +115,7 @@ Result textureResult(const TextureSamples& samples, const Origin& origin) {
           quantity(found.level_sd_dB, "dB") + ", its lowest third octave to " +
           quantity(found.lowest_band_sd_dB, "dB") + "."};
   if (!found.advice.empty()) r.advice.push_back(found.advice);
-  r.advice.push_back("It is of one tool: a heavier one, or another tip, is shaken otherwise.");
+  r.advice.emplace_back("It is of one tool: a heavier one, or another tip, is shaken otherwise.");
   r.plots.push_back(std::move(judged.plot));
   return r;
 }

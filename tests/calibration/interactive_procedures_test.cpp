@@ -154,7 +154,7 @@ TEST(InteractiveProcedures, ProfilesOfTwoFormsAreFoundAgain) {
 }
 
 TEST(InteractiveProcedures, TheFileHoldsTheLibrary) {
-  const test::ScratchFolder folder("interactive-procedures");
+  const palpa::test::ScratchFolder folder("interactive-procedures");
   ProcedureLibrary library = slowAndFast();
   library.labels.push_back({"search", {"scan"}, 2, "fast", "a test"});
   library.labels.push_back({"search", {}, -1, "", "says nothing"});

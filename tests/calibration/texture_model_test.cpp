@@ -51,7 +51,7 @@ std::vector<TextureStroke> strokesOn(const TextureGrid& grid, const Planted& pla
   return strokes;
 }
 
-std::string refusal(const std::vector<TextureStroke>& strokes, double dt = kStep,
+std::string textureRefusal(const std::vector<TextureStroke>& strokes, double dt = kStep,
                     const TextureGrid& grid = kTwoByTwo) {
   return complaint([&] { identifyTexture(strokes, dt, grid); });
 }
@@ -95,31 +95,31 @@ TEST(TextureModel, RendersWhatWasRecorded) {
 
 TEST(TextureModel, RefusesWhatCannotTell) {
   const std::vector<TextureStroke> good = strokesOn(kTwoByTwo, {}, 6, 3);
-  EXPECT_EQ(refusal(good), "");
-  EXPECT_TRUE(says(refusal(good, 2e-3), "1 kHz"));
-  EXPECT_TRUE(says(refusal(strokesOn(kTwoByTwo, {}, 2, 3)),
+  EXPECT_EQ(textureRefusal(good), "");
+  EXPECT_TRUE(says(textureRefusal(good, 2e-3), "1 kHz"));
+  EXPECT_TRUE(says(textureRefusal(strokesOn(kTwoByTwo, {}, 2, 3)),
                    "steady strokes are near 0.50 N and 50.00 mm/s"));
-  EXPECT_TRUE(says(refusal(good, kStep, {{0.5, 3.0}, {0.05, 0.1}}), "3.00 N"));
-  EXPECT_TRUE(says(refusal(good, kStep, {{1.0, 0.5}, {0.05}}), "rising"));
-  EXPECT_TRUE(says(refusal({}), "too few"));
+  EXPECT_TRUE(says(textureRefusal(good, kStep, {{0.5, 3.0}, {0.05, 0.1}}), "3.00 N"));
+  EXPECT_TRUE(says(textureRefusal(good, kStep, {{1.0, 0.5}, {0.05}}), "rising"));
+  EXPECT_TRUE(says(textureRefusal({}), "too few"));
   std::vector<TextureStroke> cut = good;
   for (TextureStroke& stroke : cut)
     for (TextureSample& s : stroke) s.shake = std::clamp(s.shake, -0.05, 0.05);
-  EXPECT_TRUE(says(refusal(cut), "cut off"));
+  EXPECT_TRUE(says(textureRefusal(cut), "cut off"));
   std::vector<TextureStroke> silent = good;
   for (TextureStroke& stroke : silent)
     for (TextureSample& s : stroke) s.shake = 0;
-  EXPECT_TRUE(says(refusal(silent), "nothing shakes"));
+  EXPECT_TRUE(says(textureRefusal(silent), "nothing shakes"));
   std::vector<TextureStroke> broken = good;
   broken[1][700].speed = std::nan("");
-  EXPECT_TRUE(says(refusal(broken), "not a number"));
+  EXPECT_TRUE(says(textureRefusal(broken), "not a number"));
 }
 
 TEST(TextureModel, PiecesThatAreNotSteadyDoNotCount) {
   std::vector<TextureStroke> strokes = strokesOn(kTwoByTwo, {}, 6, 4);
   for (std::size_t i = 0; i < strokes[0].size(); ++i)
     strokes[0][i].speed *= 1 + 0.5 * std::sin(2 * std::numbers::pi * 8e-3 * static_cast<double>(i));
-  EXPECT_TRUE(says(refusal(strokes), "steady"));
+  EXPECT_TRUE(says(textureRefusal(strokes), "steady"));
 }
 
 TEST(ThirdOctave, ASineIsInItsBandAlone) {
