@@ -141,7 +141,8 @@ class PulseHand final : public Hand {
     const runtime::Displayed& seen = *senses.seen;
     if (seen.running && seen.trial != trial_) return begin(seen.trial, now_s);
     if (!seen.running) return leave(now_s);
-    if (step_ == PulseStep::rest) go(PulseStep::come, now_s);  // after a pause
+    if (step_ == PulseStep::rest || step_ == PulseStep::done)  // after a pause
+      go(PulseStep::come, now_s);
     step(seen, now_s);
   }
 
@@ -207,7 +208,6 @@ class PulseHand final : public Hand {
           say(seen, now_s);
         return;
       case PulseStep::done:
-        moved(now_s, kPulseLifts_s, {from_P_.x(), from_P_.y(), kPulseHover});
         return;
     }
   }
