@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "haptics/loop/tick.h"
@@ -149,6 +150,43 @@ TEST(TouchTick, ASensorThatIsSilentBetweenTrialsIsNoTrip) {
   EXPECT_EQ(unpack(quiet.f_command_D), Vec3(Vec3::Zero()));
   loop.commands.armed = 1;
   EXPECT_EQ(loop.step({0, 0, 0.01}, Vec3::Zero()).safety, SafetyCause::no_sensor);
+}
+
+/// White shaking of 50 mN at any force and speed.
+TextureLaw whiteTexture() {
+  TextureLaw law;
+  law.speeds = law.forces = law.order = 1;
+  law.ln_speed[0] = std::log(0.03);
+  law.ln_force[0] = std::log(0.3);
+  law.nodes[0][0].ln_rms = std::log(0.05);
+  law.largest = 1;
+  return law;
+}
+
+/// The device shakes along the thing's normal, however it lies, and the passivity observer takes
+/// none of it for energy that has to be damped.
+TEST(TouchTick, ATextureIsASourceAlongTheNormal) {
+  for (const bool turned : {false, true}) {
+    TouchLoop loop;
+    if (turned)
+      loop.turnThing(makePose(Mat3(Eigen::AngleAxisd(0.7, Vec3::UnitX())), Vec3(0.01, 0.02, 0)));
+    loop.config.touch.texture = whiteTexture();
+    loop.config.touch.surface.contact.friction = loop.config.touch.surface.wanted = {};
+    loop.config.passivity.max_damping = 9;
+    loop.press(0, 0.004);
+    const Vec3 up = loop.X_DP.linear() * Vec3::UnitZ();
+    const double f_n = forceOf(kRealThing, 0.004, 0);
+    double squares = 0;
+    for (int i = 0; i < 500; ++i) {
+      const FlightRecord record = loop.step({1e-4 * i, 0, -0.004}, {0, 0, f_n});
+      const Vec3 f = unpack(record.f_command_D);
+      EXPECT_LT(f.cross(up).norm(), 1e-9);
+      EXPECT_EQ(record.damped, 0);
+      if (i >= 200) squares += f.squaredNorm() / 300;
+    }
+    // w = y - 0.9 y_before of white y
+    EXPECT_NEAR(std::sqrt(squares), 0.05 * std::sqrt(1 + 0.9 * 0.9), 0.02);
+  }
 }
 
 /// A copy of the state goes on with the same bits: a session can be replayed from any keyframe.
