@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kProcedureExamples = R"(Examples:
   palpa calibrate procedures --from a/session.palpa b/session.palpa --out procedures.json
       the shipped library, its profiles made anew from these recordings
-  PALPA=build/check/palpa bash assets/interactions/procedures.sh
+  PALPA=build/check/palpa bash assets/interactions/procedures.sh learn
       the shipped library, made again
 What procedures there are, their cues, and what each task's labels mean stand in the library that
 --library names; only profiles and durations are made of the recordings. Judge it by other ones.)";
