@@ -52,7 +52,7 @@ std::vector<TextureStroke> strokesOn(const TextureGrid& grid, const Planted& pla
 }
 
 std::string textureRefusal(const std::vector<TextureStroke>& strokes, double dt = kStep,
-                    const TextureGrid& grid = kTwoByTwo) {
+                           const TextureGrid& grid = kTwoByTwo) {
   return complaint([&] { identifyTexture(strokes, dt, grid); });
 }
 

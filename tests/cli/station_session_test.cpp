@@ -8,6 +8,7 @@
 
 #include "apps/record/session_file.h"
 #include "apps/runtime/clock.h"
+#include "csv_rows.h"
 #include "program.h"
 
 /// Sessions on other stations than the virtual bench as it is shipped, and on other loops.
@@ -27,13 +28,6 @@ nlohmann::json benchWithFewPictures() {
 std::vector<std::string> ofTheStation(std::vector<std::string> more) {
   more.insert(more.begin(), "paracentesis");
   return quickly(more);
-}
-
-std::vector<std::string> cellsOf(const std::string& line) {
-  std::vector<std::string> cells;
-  std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
 }
 
 std::string totalOf(const std::filesystem::path& csv) {
