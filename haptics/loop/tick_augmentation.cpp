@@ -157,7 +157,7 @@ NeedleContact floorContact(const TickConfig& config, TickState& state, const Flo
 void addAugmentations(const TickConfig& config, TickState& state, const NeedleContact& contact,
                       const Floor* floor, const FloorTouch* touch, TickFrame* frame) noexcept {
   const AugmentationPlan& plan = config.augmentations;
-  frame->f_source_D = frame->f_pulse_D;
+  frame->f_source_D += frame->f_pulse_D;
   frame->record.f_augmentation_D = pack(frame->f_pulse_D);
   if (plan.subtasks.count == 0 && plan.count == 0) return;
   const Vec3 p_D = frame->pose.p_DT;
@@ -183,7 +183,7 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   record.subtasks = static_cast<std::uint8_t>(added.subtasks);
   record.augmenting = static_cast<std::uint8_t>(added.active);
   record.began = static_cast<std::uint8_t>(added.began);
-  frame->f_source_D += added.f_source + frame->f_pulse_D;
+  frame->f_source_D += added.f_source;
 }
 
 }  // namespace palpa::haptics
