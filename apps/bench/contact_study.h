@@ -151,6 +151,8 @@ struct PulseCase {
   haptics::PulseLaw pulse;
   haptics::PulsingArtery artery;  ///< beats once a second
   double beside = 0;              ///< m, of the tool from the artery's line
+  /// m, how deep: lighter than the pulse is strong, it lifts the finger off and is no pulse
+  double pressed = 6e-3;
   Noise noise = Noise::kalman;
 };
 double pulseError(const twin::PhantomTwin& phantom, PulseCase one);

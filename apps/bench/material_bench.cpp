@@ -112,6 +112,7 @@ void benchPulse(const twin::PhantomTwin& plain, const KnownPhantom& known, Noise
     one.artery.strength_N = figures.strength_N;
     one.artery.best_N = figures.best_N;
     one.artery.vessel = static_cast<std::uint32_t>(i + 1);
+    one.pressed = known.contact.x0 + haptics::depthOf(known.contact.law, figures.best_N, 0);
     for (const double beside_mm : {0.0, 3.0}) {
       one.beside = 1e-3 * beside_mm;
       nlohmann::json params = paramsOf(noise);

@@ -6,7 +6,6 @@
 namespace palpa::bench {
 namespace {
 
-constexpr double kPulsePress = 3e-3;                // m
 constexpr double kPulseComes = 1, kPulseHolds = 9;  // s: down, then held still
 constexpr double kPulseJudged = 4;                  // s: from here on all is steady
 constexpr int kPulseParts = 8;                      // a tick's
@@ -29,7 +28,7 @@ struct PressedPulse {
 
 PressedPulse pressPulse(const twin::PhantomTwin& start, const PulseCase& one, Beats beats) {
   twin::LedTip way(Vec3(one.beside, 0, 2e-3));
-  way.go(Vec3(one.beside, 0, -kPulsePress), kPulseComes, kPulseHolds);
+  way.go(Vec3(one.beside, 0, -one.pressed), kPulseComes, kPulseHolds);
   twin::PhantomTwin phantom = start;
   twin::DeviceTwin device(one.truth, makePose(Mat3::Identity(), way.at(0)));
   SensedTouch sensed(kPulseSeed, one.truth, one.noise);
