@@ -41,6 +41,9 @@ struct ProcedureAgreement {
   int judged = 0;         ///< whose label means a procedure
   Eigen::MatrixXi table;  ///< steps judged: labelled (rows), matched (columns)
   double kappa = 0;
+  /// Of the steps judged; where all labels mean one procedure, this says more than kappa
+  double agreed() const { return judged > 0 ? 1.0 * table.trace() / judged : 0; }
+  bool oneProcedure() const { return (table.rowwise().sum().array() > 0).count() == 1; }
   std::vector<ProcedureCount> each;  ///< as the library counts them
 };
 ProcedureAgreement procedureAgreement(std::size_t procedures,

@@ -76,8 +76,7 @@ void writeByTask(Html& html, const ProcedureProposal& p) {
   const auto table = html.in("table", {{"class", "facts"}});
   const auto body = html.in("tbody");
   for (const TaskAgreement& task : p.tasks)
-    writeFact(html, task.task,
-              task.agreement.judged > 0 ? "kappa " + fixed(task.agreement.kappa, 2) : "not judged",
+    writeFact(html, task.task, agreementInShort(task.agreement),
               counted(task.recordings, "recording") + "; " +
                   percentOf(1.0 * task.agreement.judged / std::max(task.agreement.steps, 1)) +
                   " of the time has a label that says what the hand does");
@@ -160,14 +159,23 @@ void writeProcedureCards(Html& html, const ProcedureProposal& p, const std::stri
 
 }  // namespace
 
+std::string agreementInShort(const ProcedureAgreement& agreement) {
+  if (agreement.judged == 0) return "not judged";
+  return agreement.oneProcedure() ? percentOf(agreement.agreed()) + " alike"
+                                  : "kappa " + fixed(agreement.kappa, 2);
+}
+
 std::vector<std::string> wordsOf(const ProcedureProposal& proposal) {
   std::vector<std::string> words;
   const ProcedureAgreement& a = proposal.agreement;
   if (a.judged == 0)
     return {"No label of these recordings says what the hand does: there is nothing to judge by."};
-  words.push_back("Kappa " + fixed(a.kappa, 2) + " against the tasks' labels, over " +
-                  fixed(kStepWide_s * a.judged, 0) + " s of " + fixed(kStepWide_s * a.steps, 0) +
-                  " s; names are names, and no matching is sought.");
+  words.push_back(
+      (a.oneProcedure() ? "All labels mean one procedure, so that kappa says nothing: " +
+                              percentOf(a.agreed()) + " of the time alike"
+                        : "Kappa " + fixed(a.kappa, 2)) +
+      " against the tasks' labels, over " + fixed(kStepWide_s * a.judged, 0) + " s of " +
+      fixed(kStepWide_s * a.steps, 0) + " s; names are names, and no matching is sought.");
   std::string recalls;
   for (std::size_t k = 0; k < a.each.size(); ++k)
     if (a.each[k].labelled > 0)

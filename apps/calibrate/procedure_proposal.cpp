@@ -58,7 +58,8 @@ ordered_json agreementJson(const ProcedureProposal& proposal, const ProcedureAgr
   }
   return {{"all_s", kProposalStep_s * a.steps},
           {"judged_s", kProposalStep_s * a.judged},
-          {"kappa", a.judged > 0 ? ordered_json(a.kappa) : ordered_json()},
+          {"agreed", a.judged > 0 ? ordered_json(a.agreed()) : ordered_json()},
+          {"kappa", a.judged > 0 && !a.oneProcedure() ? ordered_json(a.kappa) : ordered_json()},
           {"procedures", each}};
 }
 

@@ -60,6 +60,10 @@ ProcedureProposal propose(const calibration::ProcedureLibrary& library,
 /// What is proposed, and how it agrees, in plain sentences.
 std::vector<std::string> wordsOf(const ProcedureProposal& proposal);
 
+/// "kappa 0.71"; "96 % alike" where all labels mean one procedure, by which kappa says nothing;
+/// "not judged".
+std::string agreementInShort(const ProcedureAgreement& agreement);
+
 /// Procedures with cues, the parts of each trial with their times, agreement.
 nlohmann::ordered_json toJson(const ProcedureProposal& proposal);
 

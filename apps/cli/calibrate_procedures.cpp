@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/base/error.h"
+#include "anatomy/base/counted.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/calibrate/procedure_proposal.h"
 #include "apps/cli/commands.h"
@@ -82,9 +82,9 @@ void proposeByLibrary(const std::vector<std::string>& recordings, const std::str
                   proposal.shares[k].visits, proposal.library.procedures[k].cue.kind.c_str());
   for (const std::string& sentence : wordsOf(proposal)) std::printf("  %s\n", sentence.c_str());
   for (const TaskAgreement& task : proposal.tasks)
-    if (proposal.tasks.size() > 1 && task.agreement.judged > 0)
-      std::printf("  %s: kappa %.2f, %d recordings\n", task.task.c_str(), task.agreement.kappa,
-                  task.recordings);
+    if (proposal.tasks.size() > 1)
+      std::printf("  %s: %s, %s\n", task.task.c_str(), agreementInShort(task.agreement).c_str(),
+                  counted(task.recordings, "recording").c_str());
   std::printf("Written: %s\n", (folder / "procedures.html").c_str());
 }
 
