@@ -152,7 +152,9 @@ TEST(Texture, LargestPassesTheSlewLimit) {
                                       largestTexture(limits.max_slew_N_per_s) *
                                           std::sin(2 * std::numbers::pi * f_Hz * i * kStep));
         const Vec3 f = limitForce(limits, state, in);
-        if (i > 5) ASSERT_EQ((f - in.f_wanted_D).norm(), 0) << f_Hz << " Hz, tick " << i;
+        if (i > 5) {
+          ASSERT_EQ((f - in.f_wanted_D).norm(), 0) << f_Hz << " Hz, tick " << i;
+        }
       }
     }
   }
