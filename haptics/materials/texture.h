@@ -11,7 +11,7 @@
 /// 2012; Culbertson, Unwin & Kuchenbecker 2014).
 namespace palpa::haptics {
 
-inline constexpr int kMostTextureOrder = 32, kMostTextureSpeeds = 8, kMostTextureForces = 4;
+inline constexpr int kMostTextureOrder = 48, kMostTextureSpeeds = 8, kMostTextureForces = 4;
 /// s: the models are of forces at this step, and are rendered at no other
 inline constexpr double kTexturePeriod = 1e-3;
 /// r of the force w = y - r y_before. A tool's acceleration has next to nothing at low frequencies,
