@@ -50,9 +50,9 @@ static_assert(std::is_trivially_copyable_v<TextureState>);
 /// The next tick's force along the outward normal, N, of a tool that is pressed on with f_n (N) and
 /// slid by `slid` (m) in this tick, of `dt` (s).
 ///     F, v: f_n and slid / dt through a low-pass of 20 ms; |v| is the speed
-///     k_i, ln rms: bilinear between the four nodes around (ln F, ln v), those of the edge beyond
-///     it f_p = e, e = +1 or -1: white, of a shift register of 13 bits, the same in every trial
-///     f_i-1 = c_i f_i - k_i b_i-1,  b_i = k_i f_i + c_i b_i-1,  c_i = (1 - k_i^2)^(1/2)
+///     k_i, ln rms: bilinear between the four nodes around (ln F, ln v), beyond them as at the edge
+///     f_p = e: +1 or -1, white, of a shift register of 13 bits, the same in every trial
+///     f_i-1 = c_i f_i - k_i b_i-1,   b_i = k_i f_i + c_i b_i-1,   c_i = (1 - k_i^2)^(1/2)
 ///     y = b_0 = f_0             a normalised lattice (Gray & Markel 1975): y has the variance 1
 ///                               and stays bounded, however k_i change in between
 ///     w = rms (y - r y_before), at most `largest`

@@ -74,10 +74,8 @@ struct SeenAgain {
 TEST(ReplayView, EveryTaskIsSeenAgain) {
   for (const auto& [task, from, to, speed] :
        {SeenAgain{{"palpation", "--preset", "prostate"}},
-        SeenAgain{{"search", "--mode", "augmented"}},
-        SeenAgain{{"squeeze"}},
-        SeenAgain{{"friction"}},
-        SeenAgain{{"friction", "--sort"}},
+        SeenAgain{{"search", "--mode", "augmented"}}, SeenAgain{{"squeeze"}},
+        SeenAgain{{"friction"}}, SeenAgain{{"friction", "--sort"}},
         SeenAgain{{"pulse"}, "20", "30", "10"}}) {  // it takes minutes: a second is not seen
     const Folder here;
     std::vector<std::string> arguments = task;
