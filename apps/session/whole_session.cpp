@@ -43,6 +43,28 @@ SessionLeft heldIn(const SessionOptions& options, Hold hold) {
   }
 }
 
+/// `what`: of the session, as in "does not show a search yet".
+void needDesktop(const SessionOptions& options, const std::string& what) {
+  if (options.headset)
+    throw UsageError("does not show " + what + " yet", "--display openxr",
+                     "Choose window or offscreen");
+}
+
+void needDeviceFor(const SessionOptions& options, bool on_bench) {
+  if (options.who == OperatorKind::person && on_bench)
+    throw UsageError(
+        "cannot be felt with a mouse", "--operator person",
+        "Give a station with a haptic device (--station), or take --operator expert or novice");
+}
+
+SessionLeft heldComparison(const SessionOptions& options, const ComparisonWorld& world) {
+  return heldIn(options, [&](const std::filesystem::path& folder) {
+    const ComparisonRun run = runComparison(options, world, folder);
+    writeComparisonOutcome(options, world, run, folder);
+    return run.quit;
+  });
+}
+
 }  // namespace
 
 SessionLeft holdNeedleSession(SessionOptions options) {
@@ -63,9 +85,7 @@ SessionLeft holdNeedleSession(SessionOptions options) {
 SessionLeft holdPalpation(SessionOptions options) {
   settle(options);
   if (!options.quiet) offerUnfinished();
-  if (options.headset)
-    throw UsageError("does not show palpation yet", "--display openxr",
-                     "Choose window or offscreen");
+  needDesktop(options, "palpation");
   const PalpationWorld world(options);
   settleOperator(options, world.station);
   world.checkFingers(options);
@@ -83,30 +103,19 @@ SessionLeft holdSqueeze(SessionOptions options) {
   if (!isSimulated(options.who))
     throw UsageError("cannot hold something with one device", "--operator",
                      "So far, two devices can only be simulated: --operator expert or novice");
-  if (options.headset)
-    throw UsageError("does not show squeezing yet", "--display openxr",
-                     "Choose window or offscreen");
+  needDesktop(options, "squeezing");
   const SqueezeWorld world(options);
   checkTrainee(options);
-  return heldIn(options, [&](const std::filesystem::path& folder) {
-    const ComparisonRun run = runComparison(options, world, folder);
-    writeComparisonOutcome(options, world, run, folder);
-    return run.quit;
-  });
+  return heldComparison(options, world);
 }
 
 SessionLeft holdSearch(SessionOptions options) {
   settle(options);
   if (!options.quiet) offerUnfinished();
-  if (options.headset)
-    throw UsageError("does not show a search yet", "--display openxr",
-                     "Choose window or offscreen");
+  needDesktop(options, "a search");
   const SearchWorld world(options);
   settleOperator(options, world.station);
-  if (options.who == OperatorKind::person && world.onBench())
-    throw UsageError(
-        "cannot be felt with a mouse", "--operator person",
-        "Give a station with a haptic device (--station), or take --operator expert or novice");
+  needDeviceFor(options, world.onBench());
   checkTrainee(options);
   return heldIn(options, [&](const std::filesystem::path& folder) {
     const SearchRun run = runSearch(options, world, folder);
@@ -118,21 +127,12 @@ SessionLeft holdSearch(SessionOptions options) {
 SessionLeft holdFriction(SessionOptions options) {
   settle(options);
   if (!options.quiet) offerUnfinished();
-  if (options.headset)
-    throw UsageError("does not show friction yet", "--display openxr",
-                     "Choose window or offscreen");
+  needDesktop(options, "friction");
   const FrictionWorld world(options);
   settleOperator(options, world.station);
-  if (options.who == OperatorKind::person && world.onBench())
-    throw UsageError(
-        "cannot be felt with a mouse", "--operator person",
-        "Give a station with a haptic device (--station), or take --operator expert or novice");
+  needDeviceFor(options, world.onBench());
   checkTrainee(options);
-  return heldIn(options, [&](const std::filesystem::path& folder) {
-    const ComparisonRun run = runComparison(options, world, folder);
-    writeComparisonOutcome(options, world, run, folder);
-    return run.quit;
-  });
+  return heldComparison(options, world);
 }
 
 SessionLeft holdPulse(SessionOptions options) {

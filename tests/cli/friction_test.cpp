@@ -32,6 +32,8 @@ std::vector<Row> stroked(const std::string& who, int trials, const Folder& here,
                                 : std::vector<Row>{};
 }
 
+/// By their Weber fractions experts are right in 98 %, novices in 80 % of these comparisons; of 64
+/// answers that is 63 +- 2 and 51 +- 6 (two standard deviations).
 TEST(Friction, ExpertsTellSurfacesApartAndNovicesLessWell) {
   const Folder here;
   const int trials = test::counted(6, 64);

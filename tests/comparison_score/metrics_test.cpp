@@ -3,8 +3,25 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 namespace palpa::assess {
 namespace {
+
+using Expected = std::vector<std::pair<const char*, double>>;
+
+void expectMetrics(const ComparisonTrial& trial, const Expected& expected, const char* engine) {
+  const auto all = comparisonMetrics(trial);
+  ASSERT_EQ(all.size(), expected.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].name, expected[i].first);
+    EXPECT_NEAR(all[i].value, expected[i].second, 1e-9) << all[i].name;
+    EXPECT_TRUE(metrics::metricNamed(all[i].name) &&
+                metrics::belongsTo(*metrics::metricNamed(all[i].name), engine))
+        << all[i].name;
+  }
+}
 
 TEST(ComparisonMetrics, OfAComparisonMadeByHand) {
   ComparisonTrial trial;
@@ -14,17 +31,9 @@ TEST(ComparisonMetrics, OfAComparisonMadeByHand) {
   trial.seconds = 12;
   trial.peak_N = 4;
   trial.touches = {2, 3};
-  const std::pair<const char*, double> expected[] = {
+  const Expected expected = {
       {"success", 1}, {"time_s", 12}, {"difference_pct", 25}, {"grips", 5}, {"peak_force_N", 4}};
-  const auto all = comparisonMetrics(trial);
-  ASSERT_EQ(all.size(), 5u);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_EQ(all[i].name, expected[i].first);
-    EXPECT_NEAR(all[i].value, expected[i].second, 1e-9) << all[i].name;
-    EXPECT_TRUE(metrics::metricNamed(all[i].name) &&
-                metrics::belongsTo(*metrics::metricNamed(all[i].name), "squeeze"))
-        << all[i].name;
-  }
+  expectMetrics(trial, expected, "squeeze");
   trial.said = 1;
   EXPECT_EQ(comparisonMetrics(trial)[0].value, 0);
 }
@@ -38,20 +47,12 @@ TEST(ComparisonMetrics, OfASortingMadeByHand) {
   trial.seconds = 60;
   trial.peak_N = 0.7;
   trial.touches = {1, 2, 1, 1};
-  const std::pair<const char*, double> expected[] = {{"success", 0},
-                                                     {"time_s", 60},
-                                                     {"order_tau", 4.0 / 6},
-                                                     {"touches", 5},
-                                                     {"peak_force_N", 0.7}};
-  const auto all = comparisonMetrics(trial);
-  ASSERT_EQ(all.size(), 5u);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_EQ(all[i].name, expected[i].first);
-    EXPECT_NEAR(all[i].value, expected[i].second, 1e-9) << all[i].name;
-    EXPECT_TRUE(metrics::metricNamed(all[i].name) &&
-                metrics::belongsTo(*metrics::metricNamed(all[i].name), "friction"))
-        << all[i].name;
-  }
+  const Expected expected = {{"success", 0},
+                             {"time_s", 60},
+                             {"order_tau", 4.0 / 6},
+                             {"touches", 5},
+                             {"peak_force_N", 0.7}};
+  expectMetrics(trial, expected, "friction");
 }
 
 }  // namespace
