@@ -1,6 +1,6 @@
 #include "anatomy/base/error.h"
 #include "apps/bench/bench.h"
-#include "apps/bench/tracking/tracking_fit.h"
+#include "apps/bench/pictures/tracking_fit.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/values.h"
 #include "apps/session/terminal.h"

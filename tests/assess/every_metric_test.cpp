@@ -11,8 +11,8 @@ namespace {
 /// A figure that no test of a hand-made trial names has no known answer.
 TEST(MetricTable, EveryFigureIsNamedInATestOfAssessment) {
   std::string tests;
-  for (const char* folder :
-       {"assess", "competence", "palpation_score", "search_score", "comparison_score"})
+  for (const char* folder : {"assess", "competence", "palpation_score", "pulse_score",
+                             "search_score", "comparison_score"})
     for (const auto& entry : std::filesystem::directory_iterator(
              std::filesystem::path(PALPA_SOURCE_DIR) / "tests" / folder))
       if (entry.path().extension() == ".cpp" && entry.path().filename() != "every_metric_test.cpp")

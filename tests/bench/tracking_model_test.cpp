@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "anatomy/base/whole_file.h"
-#include "apps/bench/tracking/tracking_fit.h"
-#include "apps/bench/tracking/tracking_scene.h"
+#include "apps/bench/pictures/tracking_fit.h"
+#include "apps/bench/pictures/tracking_scene.h"
 #include "apps/station/assets.h"
 #include "tests/support/counts.h"
 #include "tests/support/files.h"

@@ -20,7 +20,7 @@ SoftBlock layered() {
   block.length = block.width = 0.06;
   block.height = 0.03;
   block.layers = {{2e-3, 0.02, 8e3}, {10e-3, 0, 1.5e3}};
-  block.ribs = {{0.01, -0.02, 0.005, 60e3}};
+  block.ribs = {{0.01, -0.014, 0.005, 60e3}};
   block.lump = SoftBlock::Lump{{-0.01, 0, -0.012}, 0.006, 24e3};
   return block;
 }
@@ -31,7 +31,7 @@ TEST(LayeredBlock, HoldsWhatLiesAtEachPoint) {
   EXPECT_EQ(shearAt(block, {0.025, 0, -2.4e-3}), 8e3) << "thicker there";
   EXPECT_EQ(shearAt(block, {0, 0, -5e-3}), 1.5e3) << "fat";
   EXPECT_EQ(shearAt(block, {0, 0.02, -0.025}), block.shear) << "below all layers";
-  EXPECT_EQ(shearAt(block, {0.01, 0.02, -0.02}), 60e3) << "a rib, from side to side";
+  EXPECT_EQ(shearAt(block, {0.01, 0.02, -0.014}), 60e3) << "a rib, from side to side";
   EXPECT_EQ(shearAt(block, {-0.01, 0, -0.012}), 24e3) << "the lump, in the fat";
   EXPECT_EQ(shearAt(block, {-0.01, 0.02, -0.011}), 1.5e3) << "beside it";
 }
@@ -67,7 +67,8 @@ TEST(LayeredBlock, BothSidesOfTheMiddleAreAlikeAndARibIsFelt) {
 
 constexpr char kSmallFile[] = R"({"version": 1, "tool_radius_mm": 8,
   "block": {"length_mm": 60, "width_mm": 60, "height_mm": 30, "bulk_over_shear": 50},
-  "table": {"step_mm": 8, "sides": 2, "depth_step_mm": 2, "depths": 2, "finest_mm": 8, "growth": 1},
+  "table": {"step_mm": 8, "sides": 2, "depth_step_mm": 2, "depths": 2, "finest_mm": 8, "growth": 1,
+            "coarsest_mm": 15},
   "phantoms": [{"name": "one", "shear_kPa": 3, "layers": [{"thickness_mm": 3, "shear_kPa": 8}],
                 "core": {"x_mm": 8, "depth_mm": 12, "diameter_mm": 12, "shear_kPa": 30},
                 "friction": {"left": 0.5, "right": 2, "across_mm": 3}}]})";

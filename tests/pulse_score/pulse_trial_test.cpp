@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <string>
+#include <utility>
 
 namespace palpa::assess {
 namespace {
@@ -74,13 +75,26 @@ TEST(PulseTrial, TheChecklistSaysWhatWasNotDoneAndWhy) {
   EXPECT_EQ(done(PulseTrial{}), 1);  // nothing was pressed too hard
 }
 
-TEST(PulseTrial, EveryFigureIsInTheTable) {
-  for (const metrics::MetricValue& m : pulseMetrics(goodTrial(), PulseRules{})) {
-    const metrics::MetricDefinition* definition = metrics::metricNamed(m.name);
-    ASSERT_NE(definition, nullptr) << m.name;
-    EXPECT_TRUE(metrics::belongsTo(*definition, "pulse")) << m.name;
-    EXPECT_TRUE(std::isfinite(m.value)) << m.name;
+TEST(PulseTrial, FiguresOfATrialMadeByHand) {
+  PulseTrial t = goodTrial();
+  t.counted = 33;
+  t.shut_pct = 12;
+  const std::vector<std::pair<const char*, double>> expected = {
+      {"success", 0},      {"time_s", 90},           {"pulse_found", 1},
+      {"pulse_off_mm", 2}, {"pulse_find_s", 40},     {"count_error_per_min", 6},
+      {"rhythm_told", 1},  {"pressed_shut_pct", 12}, {"peak_force_N", 0.9}};
+  const std::vector<metrics::MetricValue> all = pulseMetrics(t, PulseRules{});
+  ASSERT_EQ(all.size(), expected.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].name, std::string(expected[i].first));
+    EXPECT_NEAR(all[i].value, expected[i].second, 1e-9) << all[i].name;
+    const metrics::MetricDefinition* definition = metrics::metricNamed(all[i].name);
+    ASSERT_NE(definition, nullptr) << all[i].name;
+    EXPECT_TRUE(metrics::belongsTo(*definition, "pulse")) << all[i].name;
   }
+}
+
+TEST(PulseTrial, EveryFigureOfTheTableIsGiven) {
   for (const metrics::MetricDefinition& d : metrics::metricTable()) {
     if (!metrics::belongsTo(d, "pulse") || d.name == std::string_view("success")) continue;
     const auto all = pulseMetrics(goodTrial(), PulseRules{});

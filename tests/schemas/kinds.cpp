@@ -135,8 +135,9 @@ Kind stationKind() {
                    " without boards", "/boards.*", "/real_things/0/on.*",
                    "/twin/board_moves/0/board.*", "/twin/(camera|sensor)_faults/./(from|to)_s.*"},
       .forgiving = {},
-      .elsewhere = {"/twin/(samples|landmark_spread_mm|X_EM|camera_sway_mm|tracking_figures).*",
-                    "/twin without camera_sway_mm"}};
+      .elsewhere = {
+          "/twin/(samples|objects|landmark_spread_mm|X_EM|camera_sway_mm|tracking_figures).*",
+          "/twin without camera_sway_mm"}};
 }
 
 std::vector<Kind> taskKinds() {
@@ -208,7 +209,7 @@ std::vector<Kind> materialKinds() {
            .samples = {{"materials/lumps.json", json::object()}},
            .read = [](const fs::path& file) { station::readLumps(file); },
            // files that must exist
-           .stricter = {"/surface.*", "/friction.*", "/texture.*", "/kinds/./identified.*"},
+           .stricter = {"/surface.*", "/friction.*", "/kinds/./identified.*"},
            .forgiving = {},
            .elsewhere = {}},
           {.name = "calibration",
@@ -320,8 +321,8 @@ std::vector<Kind> patientKinds() {
        .read = [](const fs::path& file) { calibration::readProcedures(file); },
        // Procedures are asked for by name, each once; of two figures the second is the larger; the
        // mean duration is not below the least.
-       .stricter = {"/procedures/.*/(name|least_ms|mean_ms|profiles).*", "/labels/.*/procedure.*",
-                    "/any/.*"},
+       .stricter = {"/procedures", "/procedures/.*/(name|least_ms|mean_ms|profiles).*",
+                    "/labels/.*/procedure.*", "/any/.*"},
        .forgiving = {},
        .elsewhere = {}},
       {.name = "seeds",

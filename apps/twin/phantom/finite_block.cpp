@@ -10,13 +10,13 @@
 namespace palpa::twin {
 namespace {
 
-constexpr int kMostNewton = 60, kMostHalvings = 12, kMostGradients = 40;
-constexpr double kStepWithin = 1e-3;  // of the gradient: Newton's next step sees the rest
+constexpr int kMostNewton = 60, kMostHalvings = 12, kMostGradients = 60;
+constexpr double kStepWithin = 2e-2;  // of the gradient: Newton's next step sees the rest
 constexpr double kGoodEnough = 1e-6;  // of the force on the tools
 // Of the tip's cover, in Young's moduli per finest element: it gives by some hundredths of a
 // millimetre
 constexpr double kTipStiffness = 40;
-constexpr double kLongestStep = 1e-3;  // m that tools go at once
+constexpr double kLongestStep = 1.6e-3;  // m that tools go at once
 
 bool inLump(const SoftBlock& block, const Vec3& p) {
   return block.lump && (p - block.lump->centre).norm() < block.lump->radius;

@@ -140,6 +140,7 @@ LayeredFile readLayered(const std::filesystem::path& name) {
   LayeredFile all;
   all.fineness.finest = kMm * file.number("table/finest_mm", 0.5, 10);
   all.fineness.growth = file.number("table/growth", 0.1, 2);
+  all.fineness.coarsest = kMm * file.number("table/coarsest_mm", 1, 50);
   if (shape.reach() + shape.tool_radius > std::min(block.length, block.width) / 2)
     file.refuse("table/sides", "leads the tool off the block");
   for (const JsonFile& one : file.entries("phantoms"))
@@ -158,10 +159,11 @@ void solveLayered(const std::filesystem::path& name, const std::filesystem::path
         tabulate(phantom.block, phantom.table, file.fineness, [&](int done, int of) {
           if (progress) progress(phantom.name, done, of);
         });
-    nlohmann::json& cells = tables.emplace_back(nlohmann::json::array());
+    nlohmann::json cells = nlohmann::json::array();
     for (const Vec3& f : table.cells)
       for (const double part : {f.x(), f.y(), f.z()})
         cells.push_back(std::lround(part / kWholeMicronewton));
+    tables.push_back({{"name", phantom.name}, {"cells", cells}});
   }
   const nlohmann::json all{{"version", 1},
                            {"made_of", JsonFile(name).json()},
@@ -178,15 +180,16 @@ std::vector<LayeredPhantom> readSolvedLayered(const std::filesystem::path& name,
   needKind(tables, "layered_tables", 1);
   if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
     tables.refuse("made_of", "is not " + name.string() + " (solve it again: palpa phantom solve)");
-  if (!tables.has("tables") || tables.json()["tables"].size() != file.phantoms.size())
-    tables.refuse("tables", "must be one for each phantom");
+  const std::vector<JsonFile> each = tables.entries("tables");
+  if (each.size() != file.phantoms.size()) tables.refuse("tables", "must be one for each phantom");
   for (std::size_t i = 0; i < file.phantoms.size(); ++i) {
     SurfaceTable& table = file.phantoms[i].table;
-    const std::vector<double> figures = tables.numbers("tables/" + std::to_string(i));
+    if (each[i].text("name") != file.phantoms[i].name)
+      each[i].refuse("name", "must be \"" + file.phantoms[i].name + "\"");
+    const std::vector<double> figures = each[i].numbers("cells");
     const auto cells =
         static_cast<std::size_t>((table.sides + 1) * (2 * table.sides + 1) * table.depths);
-    if (figures.size() != 3 * cells)
-      tables.refuse("tables/" + std::to_string(i), "has not the right number of figures");
+    if (figures.size() != 3 * cells) each[i].refuse("cells", "has not the right number of figures");
     for (std::size_t c = 0; c < cells; ++c)
       table.cells.push_back(kWholeMicronewton *
                             Vec3(figures[3 * c], figures[3 * c + 1], figures[3 * c + 2]));

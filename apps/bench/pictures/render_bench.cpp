@@ -14,8 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/bench_patients.h"
+#include "apps/bench/pictures/tracking_scene.h"
 #include "apps/bench/timing.h"
-#include "apps/bench/tracking/tracking_scene.h"
 #include "ar/tracking/board_tracker.h"
 #include "scene/actors/organ_actors.h"
 #include "scene/renderer_setup.h"

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/bench/pictures/tracking_scene.h"
 #include "apps/bench/timing.h"
-#include "apps/bench/tracking/tracking_scene.h"
 #include "ar/tracking/board_pose.h"
 #include "ar/tracking/board_tracker.h"
 #include "calibration/rotation.h"

@@ -1,4 +1,4 @@
-#include "apps/bench/tracking/tracking_scene.h"
+#include "apps/bench/pictures/tracking_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "apps/bench/tracking/tracking_fit.h"
+#include "apps/bench/pictures/tracking_fit.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/bench/tracking/tracking_fit.h"
+#include "apps/bench/pictures/tracking_fit.h"
 
 /// Which tags of a board are found, by their width in the picture.
 namespace palpa::bench {

@@ -2,9 +2,9 @@
 #include <tuple>
 
 #include "anatomy/base/whole_file.h"
+#include "apps/bench/pictures/tracking_fit.h"
+#include "apps/bench/pictures/tracking_scene.h"
 #include "apps/bench/timing.h"
-#include "apps/bench/tracking/tracking_fit.h"
-#include "apps/bench/tracking/tracking_scene.h"
 #include "apps/station/assets.h"
 
 /// What `bench tracking` does about the tracking model: its figures as lines and as a file; the
