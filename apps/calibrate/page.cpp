@@ -45,7 +45,14 @@ void drawFramed(Html& html, const ChartFrame& frame, const MeasuredPlot& plot, d
     svgPath(html, "predicted", way);
   }
   drawDots(html, plot, x, y);
-  drawTimeAxis(html, roomy, x, kPlotTop + kPlotHeight, plot.x);
+  const double bottom = kPlotTop + kPlotHeight;
+  if (plot.marks.empty()) return drawTimeAxis(html, roomy, x, bottom, plot.x);
+  svgLine(html, "axis", x.from_px, bottom, x.to_px, bottom);
+  for (const auto& [at, words] : plot.marks) {
+    svgLine(html, "axis", x.at(at), bottom, x.at(at), bottom + 4);
+    svgText(html, "tick mid", x.at(at), bottom + 18, words);
+  }
+  svgText(html, "label mid", (x.from_px + x.to_px) / 2, bottom + 37, plot.x);
 }
 
 }  // namespace

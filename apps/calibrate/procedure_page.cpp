@@ -147,6 +147,8 @@ void writeProcedureCards(Html& html, const ProcedureProposal& p, const std::stri
   {
     const auto section = html.in("section", {{"class", "card"}});
     html.element("h2", "Trials over time");
+    html.element("p", {{"class", "muted small"}},
+                 "Blue: what was recognised. Grey, below it: what the task's labels say.");
     for (std::size_t i = 0; i < std::min(kStrips, p.sequences.size()); ++i) {
       const auto figure = html.in("figure");
       html.element("h3", p.sequences[i].task + ": " + p.sequences[i].trial);

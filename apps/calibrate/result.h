@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,6 +19,8 @@ struct MeasuredPlot {
   };
   std::vector<Dot> dots;
   std::vector<Dot> predicted = {};  ///< a line: what the found law says
+  /// Along x, in place of round numbers.
+  std::vector<std::pair<double, std::string>> marks = {};
 };
 
 /// How many times something was seen in each part of the picture, row by row from the top.

@@ -23,10 +23,9 @@ std::vector<double> shakingOf(const calibration::TextureStroke& stroke) {
 /// Rendered at the forces and speeds of strokes that were not used.
 struct TextureJudgement {
   double rms_dB = 0, worst_dB = 0, worst_Hz = 0;
-  MeasuredPlot plot{
-      "Third octaves of a stroke not used", "1 to 14: 20 to 400 Hz", "dB above 1 mN rms", {}};
+  MeasuredPlot plot{"Third octaves of a stroke not used, in dB above 0.1 mN rms", "Hz", "dB", {}};
 };
-double aboveMillinewton(double power) { return 10 * std::log10(std::max(power / 1e-6, 1.0)); }
+double aboveTenthMillinewton(double power) { return 10 * std::log10(std::max(power / 1e-8, 1.0)); }
 
 TextureJudgement judgeTexture(const haptics::TextureLaw& law, const TextureSamples& samples) {
   TextureJudgement judged;
@@ -42,8 +41,11 @@ TextureJudgement judgeTexture(const haptics::TextureLaw& law, const TextureSampl
       squares += off[i] * off[i];
       if (bands < calibration::kThirdOctaves) {
         const double number = static_cast<double>(i + 1);
-        judged.plot.dots.push_back({number, aboveMillinewton(recorded[i]), false});
-        judged.plot.predicted.push_back({number, aboveMillinewton(rendered[i]), false});
+        const double centre_Hz = calibration::thirdOctaveCentre(static_cast<int>(i));
+        if (i % 3 == 0)
+          judged.plot.marks.emplace_back(number, std::to_string(std::lround(centre_Hz)));
+        judged.plot.dots.push_back({number, aboveTenthMillinewton(recorded[i]), false});
+        judged.plot.predicted.push_back({number, aboveTenthMillinewton(rendered[i]), false});
       }
       ++bands;
       if (std::abs(off[i]) <= std::abs(judged.worst_dB)) continue;

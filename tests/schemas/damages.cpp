@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/counts.h"
+
 namespace palpa::schemas {
 namespace {
 
@@ -89,7 +91,7 @@ class Damager {
       replace(place, "shorter", shorter);
     }
     for (std::size_t i = 0; i < value.size(); ++i)
-      if (i < 2 || i + 1 == value.size()) visit(place / i, field);
+      if (i < test::counted<std::size_t>(1, 2) || i + 1 == value.size()) visit(place / i, field);
   }
 
   const json& document_;

@@ -73,23 +73,22 @@ void writePulseTrials(Html& html, const PulseReport& report) {
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", "Every trial");
   const auto table = html.in("table", {{"class", "answers"}});
-  writePulseHeads(html, {"Trial", "Artery", "Marked beside it", "Counted", "Delivered",
-                         "Rhythm named", "It was", "Pressed up to", "Time"});
+  writePulseHeads(
+      html, {"Trial", "Artery", "Marked beside it, mm", "Counted a minute", "Delivered a minute",
+             "Rhythm named", "It was", "Pressed up to, N", "Time, s"});
   const auto body = html.in("tbody");
   for (const assess::PulseTrial& t : report.trials) {
     const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});
     html.element("td", std::to_string(t.trial) + (pulseCounts(t) ? "" : " (not counted)"));
     html.element("td", t.artery + ", " + fixed(1e3 * t.depth_m, 0) + " mm deep");
-    cell(html, t.found(rules), t.off_m ? fixed(1e3 * *t.off_m, 0) + " mm" : "not marked");
-    cell(html, t.counts(rules),
-         t.counted ? fixed(perMinute(*t.counted, rules), 0) + " a minute" : "no number");
-    html.element("td", t.delivered ? fixed(perMinute(*t.delivered, rules), 0) + " a minute"
+    cell(html, t.found(rules), t.off_m ? fixed(1e3 * *t.off_m, 0) : "not marked");
+    cell(html, t.counts(rules), t.counted ? fixed(perMinute(*t.counted, rules), 0) : "no number");
+    html.element("td", t.delivered ? fixed(perMinute(*t.delivered, rules), 0)
                                    : std::string("not counted to the end"));
     cell(html, t.told(), t.said ? wordsOf(*t.said) : "not named");
     html.element("td", wordsOf(t.rhythm));
-    html.element("td",
-                 fixed(t.peak_N, 1) + " N" + (t.peak_N > rules.too_hard_N ? ": too hard" : ""));
-    html.element("td", fixed(t.seconds, 0) + " s");
+    html.element("td", fixed(t.peak_N, 1) + (t.peak_N > rules.too_hard_N ? ": too hard" : ""));
+    html.element("td", fixed(t.seconds, 0));
   }
 }
 
