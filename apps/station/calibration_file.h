@@ -27,7 +27,6 @@ enum class CalibrationKind : std::uint8_t {
   material,
   friction,
   inclusion,
-  object,
   texture,
   subtasks
 };
