@@ -85,7 +85,7 @@ double Heart::fibrillationInterval() {
 }
 
 BeatSchedule::BeatSchedule(Heart heart, std::int64_t first_ns)
-    : heart_(std::move(heart)), first_ns_(first_ns) {}
+    : heart_(heart), first_ns_(first_ns) {}
 
 std::array<haptics::PulseBeat, haptics::kMostBeats> BeatSchedule::at(std::int64_t now_ns) {
   while (!beats_.empty() && beats_.front().start_ns + kWave_ns < now_ns) beats_.pop_front();

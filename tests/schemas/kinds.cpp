@@ -303,7 +303,7 @@ std::vector<Kind> patientKinds() {
        .read = [](const fs::path& file) { calibration::readProcedures(file); },
        // Procedures are asked for by name, each once; of two figures the second is the larger; the
        // mean duration is not below the least.
-       .stricter = {"/procedures", "/procedures/.*/(name|least_ms|mean_ms|profiles).*",
+       .stricter = {"/procedures as .*", "/procedures/.*/(name|least_ms|mean_ms|profiles).*",
                     "/labels/.*/procedure.*", "/any/.*"},
        .forgiving = {},
        .elsewhere = {}},
