@@ -21,6 +21,19 @@ using training::Engine;
 
 namespace {
 
+/// What the record's frame says of a trial.
+template <class Trial>
+Trial factsOf(const record::RecordedTrial& trial, bool simulated) {
+  Trial facts;
+  facts.trial = trial.header.trial;
+  facts.role = training::roleNamed(trial.header.role);
+  facts.simulated = simulated;
+  facts.force_feedback = trial.header.force_feedback;
+  facts.seed = trial.header.seed;
+  facts.outcome = training::outcomeNamed(trial.end.outcome);
+  return facts;
+}
+
 /// One field of what a record describes; `otherwise` where it has none.
 template <class Value>
 Value fieldOf(const std::string& text, const char* field, const Value& otherwise,
@@ -204,13 +217,7 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
     if (episode == episodes.end())
       throw Error("does not describe episode " + std::to_string(trial.header.trial), "session",
                   "Restore the file from a backup");
-    assess::SearchTrial facts;
-    facts.trial = trial.header.trial;
-    facts.role = training::roleNamed(trial.header.role);
-    facts.simulated = simulated;
-    facts.force_feedback = trial.header.force_feedback;
-    facts.seed = trial.header.seed;
-    facts.outcome = training::outcomeNamed(trial.end.outcome);
+    auto facts = factsOf<assess::SearchTrial>(trial, simulated);
     trials.push_back({trial, task_search::judged(facts, episode->second, listener)});
   };
   record::walkTrials(reader, reader.trials(), {begin, tick, finish});
@@ -262,13 +269,7 @@ std::vector<RecordedComparison> recordedComparisons(const record::SessionReader&
   };
   const auto tick = [&](const haptics::FlightRecord& record) { listener.add(record); };
   const auto finish = [&](const record::RecordedTrial& trial) {
-    assess::ComparisonTrial facts;
-    facts.trial = trial.header.trial;
-    facts.role = training::roleNamed(trial.header.role);
-    facts.simulated = simulated;
-    facts.force_feedback = trial.header.force_feedback;
-    facts.seed = trial.header.seed;
-    facts.outcome = training::outcomeNamed(trial.end.outcome);
+    auto facts = factsOf<assess::ComparisonTrial>(trial, simulated);
     trials.push_back(
         {trial, task_comparison::judged(facts, said.comparison, listener, said.answer)});
   };
@@ -278,7 +279,7 @@ std::vector<RecordedComparison> recordedComparisons(const record::SessionReader&
 
 namespace {
 
-/// What the record says of a trial besides its ticks.
+/// The same of a pulse.
 struct SaidOfPulse {
   task_pulse::PulseCase patient;
   task_pulse::PulseAnswer answer;
@@ -309,13 +310,7 @@ std::vector<RecordedPulse> recordedPulses(const record::SessionReader& reader) {
   const auto tick = [&](const haptics::FlightRecord& record) { listener.add(record); };
   const auto finish = [&](const record::RecordedTrial& trial) {
     const SaidOfPulse said = saidOfPulse(events, trial.header.trial);
-    assess::PulseTrial facts;
-    facts.trial = trial.header.trial;
-    facts.role = training::roleNamed(trial.header.role);
-    facts.simulated = simulated;
-    facts.force_feedback = trial.header.force_feedback;
-    facts.seed = trial.header.seed;
-    facts.outcome = training::outcomeNamed(trial.end.outcome);
+    auto facts = factsOf<assess::PulseTrial>(trial, simulated);
     trials.push_back({trial, task_pulse::judged(facts, said.patient, listener, said.answer)});
   };
   record::walkTrials(reader, reader.trials(), {begin, tick, finish});

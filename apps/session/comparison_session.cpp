@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -25,8 +24,7 @@ using training::Engine;
 
 namespace {
 
-constexpr double kOpenBeside = 0.05;   // m from the object's middle, where the tools are picked up
-constexpr double kPickedAbove = 0.05;  // m above the surface, where the tool is
+constexpr double kOpenBeside = 0.05;  // m from the object's middle, where the tools are picked up
 
 station::Station comparisonStation(const SessionOptions& options, Engine engine) {
   const bool held = engine == Engine::squeeze;
@@ -88,21 +86,9 @@ ComparisonWorld::ComparisonWorld(const SessionOptions& options, Engine of)
 }
 
 haptics::TickConfig ComparisonWorld::tickConfig(const SessionOptions& options) const {
-  haptics::TickConfig tick;
-  tick.contact_mode = haptics::ContactMode::sensed_object;
-  tick.object_at_port = 1;
-  tick.coupling = station.coupling;
-  tick.safety = station.safety;
-  if (onBench()) tick.safety.deadman_button = 0;  // nobody could hold it
-  tick.passivity = station.passivity;
-  tick.X_ET = pack(station.X_ET);
-  tick.touch = station::touchOf(task.library);
-  tick.touch.texture =
-      station::bounded(tick.touch.texture, station.safety.max_slew_N_per_s, options.rate_Hz);
+  haptics::TickConfig tick = sensedTick(options, station, task.library);
   tick.touch.other_friction = engine == Engine::friction;
-  tick.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
-  tick.period_ns = std::llround(1e9 / options.rate_Hz);
-  if (tools() == 1) tick.device_turns = onBench() || station.device.capabilities.has_orientation;
+  if (tools() == 2) tick.device_turns = 1;  // two simulated devices
   return tick;
 }
 
@@ -156,22 +142,9 @@ SessionDevices::Hands ComparisonWorld::holding(const SessionOptions& options) co
 
 SessionDevices::Hands ComparisonWorld::stroking(const SessionOptions& options) const {
   const twin::StrokingSkill skill = twin::readStrokingSkill(operatorFile(options, "friction_"));
-  const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
-  twin::VirtualBenchSetup bench{
-      .station = station,
-      .hand = twin::strokingHand(skill, anatomy::X_AP(), station.X_ET, options.seed),
-      .X_DE_start = station.X_WD.inverse() * X_WO * makePose(down, Vec3(0, 0, kPickedAbove)) *
-                    station.X_ET.inverse(),
-      .watched_W = X_WO.translation(),
-      .normal_W = X_WO.linear() * Vec3::UnitZ(),
-      .seed = options.benchSeed()};
-  if (onBench()) {
-    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
-    bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
-      return std::array<twin::RealTouch, 2>{feltOf(sample->step(X_WT_true[0], dt)), {}};
-    };
-  }
-  return {std::move(bench), std::nullopt, task.library.tip_radius};
+  return SessionDevices::overSilicone(
+      options, station, twin::strokingHand(skill, anatomy::X_AP(), station.X_ET, options.seed),
+      X_WO, task.library.tip_radius);
 }
 
 record::SessionInfo ComparisonWorld::info(const SessionOptions& options) const {

@@ -91,23 +91,10 @@ void PalpationWorld::checkFingers(const SessionOptions& options) const {
 }
 
 haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) const {
-  haptics::TickConfig config;
-  config.contact_mode = haptics::ContactMode::sensed_object;
-  config.object_at_port = 1;
-  config.coupling = station.coupling;
-  config.safety = station.safety;
-  config.passivity = station.passivity;
-  config.X_ET = pack(station.X_ET);
-  config.touch = station::touchOf(task.library);
-  config.touch.texture =
-      station::bounded(config.touch.texture, station.safety.max_slew_N_per_s, options.rate_Hz);
-  config.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
+  haptics::TickConfig config = sensedTick(options, station, task.library);
   config.augmentations = station::onDevice(task.augmentations, station);
   for (std::size_t i = 0; i < task.library.kinds.size(); ++i)
     config.lump_radius[i] = task.library.kinds[i].diameter / 2;
-  config.period_ns = std::llround(1e9 / options.rate_Hz);
-  if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
-  config.device_turns = onBench() || station.device.capabilities.has_orientation;
   return config;
 }
 

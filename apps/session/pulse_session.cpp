@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/parametric/phantoms.h"
@@ -14,12 +13,9 @@
 #include "apps/task_pulse/pulse_scene.h"
 #include "apps/training/trial_words.h"
 #include "apps/twin/feeling_hands.h"
-#include "apps/twin/soft_samples.h"
 
 namespace palpa::session {
 namespace {
-
-constexpr double kToolAbove = 0.05;  // m above the surface, where the tool is picked up
 
 station::Station pulseStation(const SessionOptions& options) {
   station::Station station = station::readStation(
@@ -56,42 +52,16 @@ PulseWorld::PulseWorld(const SessionOptions& options)
 }
 
 haptics::TickConfig PulseWorld::tickConfig(const SessionOptions& options) const {
-  haptics::TickConfig tick;
-  tick.contact_mode = haptics::ContactMode::sensed_object;
-  tick.object_at_port = 1;
-  tick.coupling = station.coupling;
-  tick.safety = station.safety;
-  if (onBench()) tick.safety.deadman_button = 0;  // nobody could hold it
-  tick.passivity = station.passivity;
-  tick.X_ET = pack(station.X_ET);
-  tick.touch = station::touchOf(task.library);
+  haptics::TickConfig tick = sensedTick(options, station, task.library);
   tick.pulse = task.law;
-  tick.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
-  tick.period_ns = std::llround(1e9 / options.rate_Hz);
-  tick.device_turns = onBench() || station.device.capabilities.has_orientation;
   return tick;
 }
 
 SessionDevices::Hands PulseWorld::hands(const SessionOptions& options) const {
   const twin::PulseSkill skill = twin::readPulseSkill(operatorFile(options, "pulse_"));
-  const Pose& X_WP = station.sample->X_WP;
-  const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
-  twin::VirtualBenchSetup bench{
-      .station = station,
-      .hand = twin::pulseHand(skill, anatomy::X_AP(), station.X_ET, options.seed),
-      .X_DE_start = station.X_WD.inverse() * X_WP * makePose(down, Vec3(0, 0, kToolAbove)) *
-                    station.X_ET.inverse(),
-      .watched_W = X_WP.translation(),
-      .normal_W = X_WP.linear() * Vec3::UnitZ(),
-      .seed = options.benchSeed()};
-  if (onBench()) {
-    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
-    bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
-      const twin::SampleTouch touch = sample->step(X_WT_true[0], dt);
-      return std::array<twin::RealTouch, 2>{twin::RealTouch{touch.f_W, touch.p_W}, {}};
-    };
-  }
-  return {std::move(bench), std::nullopt, task.library.tip_radius};
+  return SessionDevices::overSilicone(
+      options, station, twin::pulseHand(skill, anatomy::X_AP(), station.X_ET, options.seed),
+      station.sample->X_WP, task.library.tip_radius);
 }
 
 record::SessionInfo PulseWorld::info(const SessionOptions& options) const {

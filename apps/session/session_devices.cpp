@@ -1,10 +1,12 @@
 #include "apps/session/session_devices.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "anatomy/base/counted.h"
 #include "apps/record/session_file.h"
 #include "apps/trial/trial_status.h"
+#include "apps/twin/soft_samples.h"
 #include "haptics/devices/falcon/falcon_protocol.h"
 #include "haptics/devices/usb_transport.h"
 
@@ -42,6 +44,50 @@ trial::UserRequest requestOf(const twin::Hand::Word& word) {
 }
 
 }  // namespace
+
+haptics::TickConfig sensedTick(const SessionOptions& options, const station::Station& station,
+                               const station::LumpLibrary& library) {
+  const bool bench = station.device.driver == station::DeviceDriver::bench;
+  haptics::TickConfig tick;
+  tick.contact_mode = haptics::ContactMode::sensed_object;
+  tick.object_at_port = 1;
+  tick.coupling = station.coupling;
+  tick.safety = station.safety;
+  if (bench) tick.safety.deadman_button = 0;
+  tick.passivity = station.passivity;
+  tick.X_ET = pack(station.X_ET);
+  tick.touch = station::touchOf(library);
+  tick.touch.texture =
+      station::bounded(tick.touch.texture, station.safety.max_slew_N_per_s, options.rate_Hz);
+  tick.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
+  tick.period_ns = std::llround(1e9 / options.rate_Hz);
+  tick.device_turns = bench || station.device.capabilities.has_orientation;
+  return tick;
+}
+
+SessionDevices::Hands SessionDevices::overSilicone(const SessionOptions& options,
+                                                   const station::Station& station,
+                                                   std::unique_ptr<twin::Hand> hand,
+                                                   const Pose& X_WO, double tip_radius) {
+  constexpr double kPickedUp = 0.05;  // m above the surface
+  const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+  twin::VirtualBenchSetup bench{.station = station,
+                                .hand = std::move(hand),
+                                .X_DE_start = station.X_WD.inverse() * X_WO *
+                                              makePose(down, Vec3(0, 0, kPickedUp)) *
+                                              station.X_ET.inverse(),
+                                .watched_W = X_WO.translation(),
+                                .normal_W = X_WO.linear() * Vec3::UnitZ(),
+                                .seed = options.benchSeed()};
+  if (station.device.driver == station::DeviceDriver::bench) {
+    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
+    bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
+      const twin::SampleTouch touch = sample->step(X_WT_true[0], dt);
+      return std::array<twin::RealTouch, 2>{twin::RealTouch{touch.f_W, touch.p_W}, {}};
+    };
+  }
+  return {std::move(bench), std::nullopt, tip_radius};
+}
 
 SessionDevices::SessionDevices(const SessionOptions& options, const station::Station& station,
                                Hands hands, runtime::Bus& bus, trial::Channels& channels,

@@ -12,10 +12,18 @@
 #include "apps/session/force_guard.h"
 #include "apps/session/mouse_hands.h"
 #include "apps/session/session_options.h"
+#include "apps/station/material_files.h"
 #include "apps/twin/virtual_bench.h"
 #include "haptics/devices/replay_device.h"
+#include "haptics/loop/tick_config.h"
 
 namespace palpa::session {
+
+/// The loop under one tool with a force sensor on that silicone: frames, limits, the library's
+/// laws, its texture within the limiter. On the bench without a dead-man's button: nobody could
+/// hold it. Throws UsageError for a texture that this loop cannot give.
+haptics::TickConfig sensedTick(const SessionOptions& options, const station::Station& station,
+                               const station::LumpLibrary& library);
 
 /// Who or what holds the tool, behind HapticDevice, and what measures the force on it: the bench's
 /// twins, a person's mouse, a Falcon, a recorded hand; the station file and the operator decide.
@@ -33,6 +41,9 @@ class SessionDevices {
     double tip_radius = 0;
     PointingHand* pointing = nullptr;  ///< it holds the bench's device, for a person
   };
+  /// Such a hand with one upright tool, picked up above X_WO, and on the bench its silicone.
+  static Hands overSilicone(const SessionOptions& options, const station::Station& station,
+                            std::unique_ptr<twin::Hand> hand, const Pose& X_WO, double tip_radius);
   SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands,
                  runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock,
                  runtime::TimeMode mode);

@@ -119,20 +119,9 @@ void ComparisonScene::addTo(runtime::Displayed& displayed, const runtime::ToolSt
 scene::Hud ComparisonScene::words(const runtime::ToolState& tool,
                                   const std::string& trouble) const {
   scene::Hud hud;
-  char text[96];
-  if (status_.trials > 1 && status_.trial > 0) {
-    std::snprintf(text, sizeof text, "Trial %d of %d  ", status_.trial, status_.trials);
-    hud.phase = text;
-  }
-  if (status_.active()) {
-    hud.phase += questionText(status_);
-    std::snprintf(text, sizeof text, "%.1f N%s", status_.force_N,
-                  status_.force_feedback ? "" : " (force feedback off)");
-    hud.force = text;
-    const int seconds = static_cast<int>(status_.elapsed_s);
-    std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
-    hud.time = text;
-  }
+  char force[32];
+  std::snprintf(force, sizeof force, "%.1f N", status_.force_N);
+  trial::tellTrial(status_, questionText(status_), force, &hud);
   const haptics::SafetyCause safety =
       X_AD2_ ? trial::worse(tool.safety, second_.safety) : tool.safety;
   trial::noticeOf(status_, safety, "", trouble, &hud);

@@ -88,14 +88,9 @@ void PalpationScene::showFelt(scene::SceneState& state) const {
 
 scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
   scene::Hud hud;
-  if (status_.trials > 1 && status_.trial > 0)
-    hud.phase = lineOf("Trial %d of %d  ", status_.trial, status_.trials);
+  trial::tellTrial(status_, "Search for lumps",
+                   lineOf("%.1f N ", status_.pressed_N) + kPressures[status_.level], &hud);
   if (status_.active()) {
-    hud.phase += "Search for lumps";
-    hud.force = lineOf("%.1f N ", status_.pressed_N) + kPressures[status_.level] +
-                (status_.force_feedback ? "" : " (force feedback off)");
-    const int seconds = static_cast<int>(status_.elapsed_s);
-    hud.time = lineOf("%d:%02d", seconds / 60, seconds % 60);
     hud.note = setup_.force_note;
     if (!status_.marks_P.empty())
       hud.marked = lineOf("%d", static_cast<int>(status_.marks_P.size()));

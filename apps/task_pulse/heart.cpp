@@ -60,20 +60,20 @@ Heart::Beat Heart::contraction() {
   pause_s_ = beat.premature ? (2 - share) * usual_s_ : 0;
   t_s_ += share * interval;
   beat.t_s = t_s_;
-  const double breath =
-      pinned::sin(2 * std::numbers::pi * (phase_ + std::fmod(t_s_ / figures_.breath_s, 1.0)));
-  beat.strength = 1 + figures_.breath_strength * breath;
+  beat.strength = 1 + figures_.breath_strength * breath();
   if (beat.premature || rhythm_ == PulseRhythm::irregular)
     beat.strength *= filling(figures_, share * interval, usual_s_);
   if (after_pause) beat.strength *= 1 + figures_.potentiation;
   return beat;
 }
 
+double Heart::breath() const {
+  return pinned::sin(2 * std::numbers::pi * (phase_ + std::fmod(t_s_ / figures_.breath_s, 1.0)));
+}
+
 double Heart::sinusInterval() {
   const double c = figures_.sdnn_s / figures_.sdnn_at_s * usual_s_ / figures_.sdnn_at_s;
-  const double breath =
-      pinned::sin(2 * std::numbers::pi * (phase_ + std::fmod(t_s_ / figures_.breath_s, 1.0)));
-  const double varies = std::sqrt(2 * figures_.breath_share) * breath +
+  const double varies = std::sqrt(2 * figures_.breath_share) * breath() +
                         std::sqrt(1 - figures_.breath_share) * random_.normal();
   return usual_s_ * std::clamp(1 + c * varies, kFastest, kSlowest);
 }

@@ -52,6 +52,7 @@ class Heart {
 
  private:
   Beat contraction();
+  double breath() const;  ///< -1 to 1, now
   double sinusInterval();
   double fibrillationInterval();
 

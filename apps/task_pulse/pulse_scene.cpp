@@ -55,20 +55,9 @@ void PulseScene::addTo(runtime::Displayed& displayed, const runtime::ToolState&)
 
 scene::Hud PulseScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
   scene::Hud hud;
-  char text[96];
-  if (status_.trials > 1 && status_.trial > 0) {
-    std::snprintf(text, sizeof text, "Trial %d of %d  ", status_.trial, status_.trials);
-    hud.phase = text;
-  }
-  if (status_.active()) {
-    hud.phase += taskText(status_);
-    std::snprintf(text, sizeof text, "%.1f N%s", status_.force_N,
-                  status_.force_feedback ? "" : " (force feedback off)");
-    hud.force = text;
-    const int seconds = static_cast<int>(status_.elapsed_s);
-    std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
-    hud.time = text;
-  }
+  char force[32];
+  std::snprintf(force, sizeof force, "%.1f N", status_.force_N);
+  trial::tellTrial(status_, taskText(status_), force, &hud);
   trial::noticeOf(status_, tool.safety, "", trouble, &hud);
   hud.mark = mark();
   return hud;

@@ -26,6 +26,9 @@ Outcome outcomeNamed(std::string_view name) {
 bool isVoid(std::string_view outcome) { return outcomeNamed(outcome) == Outcome::voided; }
 
 bool countsAsScored(Role role) { return role == Role::scored || role == Role::assessed; }
+bool countsAsScored(Role role, Outcome outcome) {
+  return countsAsScored(role) && outcome != Outcome::voided;
+}
 
 bool inAssessment(Role role) { return role == Role::assessed; }
 

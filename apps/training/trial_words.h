@@ -43,6 +43,8 @@ bool isVoid(std::string_view outcome);
 
 /// Whether a trial of this role counts: a practice trial that is scored, or one in assessment.
 bool countsAsScored(Role role);
+/// And it was not taken out.
+bool countsAsScored(Role role, Outcome outcome);
 
 /// No aid is shown or felt.
 bool inAssessment(Role role);

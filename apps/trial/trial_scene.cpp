@@ -115,6 +115,19 @@ std::string whyText(haptics::SafetyCause cause) {
   }
 }
 
+void tellTrial(const TrialStatus& status, const std::string& task, const std::string& force,
+               scene::Hud* hud) {
+  if (status.trials > 1 && status.trial > 0)
+    hud->phase =
+        "Trial " + std::to_string(status.trial) + " of " + std::to_string(status.trials) + "  ";
+  if (!status.active()) return;
+  hud->phase += task;
+  hud->force = force + (status.force_feedback ? "" : " (force feedback off)");
+  const int seconds = static_cast<int>(status.elapsed_s);
+  hud->time = std::to_string(seconds / 60) + (seconds % 60 < 10 ? ":0" : ":") +
+              std::to_string(seconds % 60);
+}
+
 void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std::string& own,
               const std::string& camera, scene::Hud* hud) {
   hud->notice = status.notice;

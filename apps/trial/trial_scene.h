@@ -142,6 +142,9 @@ std::string forceText(haptics::SafetyCause cause);
 haptics::SafetyCause worse(haptics::SafetyCause first, haptics::SafetyCause second);
 /// Why force was taken away, as part of a sentence: "the device was silent".
 std::string whyText(haptics::SafetyCause cause);
+/// What every task shows of a trial: which it is, what is to be done, force (in words) and time.
+void tellTrial(const TrialStatus& status, const std::string& task, const std::string& force,
+               scene::Hud* hud);
 /// The line of advice that every task has: its own, trouble with force, device, camera; in this
 /// order. Sets the alarm.
 void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std::string& own,

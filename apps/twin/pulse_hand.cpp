@@ -6,18 +6,14 @@
 #include "anatomy/base/random.h"
 #include "apps/twin/beat_sense.h"
 #include "apps/twin/feeling_hands.h"
-#include "apps/twin/hand_motion.h"
-#include "apps/twin/hand_senses.h"
+#include "apps/twin/upright_tool.h"
 
 namespace palpa::twin {
 namespace {
 
 using Question = runtime::Displayed::Question;
 
-constexpr std::int64_t kPulseThinks_ns = 10'000'000, kPulseLooks_ns = 100'000'000;
-constexpr double kPulseThinks_s = 0.01;
-constexpr double kFingertipSharp = 0.3;  // touch is not sharper than about 25 ms
-constexpr double kPulseHover = 0.006;    // m above the surface: where the hand moves in the air
+constexpr double kPulseHover = 0.006;  // m above the surface: where the hand moves in the air
 constexpr double kPulseComes_s = 0.8, kNextPlace_s = 0.35, kPulseLifts_s = 0.25, kPulseWord_s = 0.5,
                  kSettles_s = 0.9, kHoldsButton_s = 0.3;
 constexpr double kPulseDown = 0.01, kPulseDeepest = 0.012;  // m/s; m: who feels nothing stops there
@@ -57,25 +53,18 @@ class PulseHand final : public Hand {
  public:
   PulseHand(const PulseSkill& skill, const Pose& X_AP, const Pose& X_ET, std::uint64_t seed)
       : skill_(skill),
-        X_AP_(X_AP),
-        X_ET_(X_ET),
+        tool_(X_AP, X_ET, skill.look_sd, RandomStream(seed, "pulse.noise"),
+              Tremor(skill.tremor_rms, RandomStream(seed, "pulse.tremor"))),
         places_(placesAcross(skill.step, skill.reach)),
         judgement_(seed, "pulse.judgement"),
-        noise_(seed, "pulse.noise"),
-        tremor_(skill.tremor_rms, RandomStream(seed, "pulse.tremor")),
         sense_(skill.beat, RandomStream(seed, "pulse.sense")) {}
 
   Action act(const Senses& senses, double dt) override {
-    look(senses, dt);
-    if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
-    if (senses.now_ns >= next_thought_ns_) {
-      next_thought_ns_ = senses.now_ns + kPulseThinks_ns;
-      think(senses);
-    }
+    if (!tool_.look(senses, dt, step_ == PulseStep::rest || step_ == PulseStep::come))
+      return {senses.X_DE, 0, 0, {}};
+    if (tool_.thinks(senses)) think(senses);
     Action action;
-    const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
-    action.X_DH =
-        bearings_.X_DA() * X_AP_ * makePose(down, at_P_ + tremor_.next(dt)) * X_ET_.inverse();
+    action.X_DH = tool_.wanted(dt);
     action.buttons = step_ == PulseStep::mark ? 1 : 0;
     std::swap(action.says, word_);
     return action;
@@ -87,38 +76,14 @@ class PulseHand final : public Hand {
   /// What it goes down for: to find the pulse, to find the pressure, to count.
   enum class PulseAim { place, pressure, count };
 
-  void look(const Senses& senses, double dt) {
-    const Vec3 p_D = senses.X_DE.translation();
-    speed_ += ((p_D - p_last_D_).norm() / dt - speed_) * std::min(1.0, dt / 0.05);
-    p_last_D_ = p_D;
-    const bool first = !bearings_.taken();
-    const bool free =
-        step_ == PulseStep::rest || step_ == PulseStep::come;  // else the place is kept
-    if (senses.seen && (first || (free && senses.now_ns - last_look_ns_ >= kPulseLooks_ns))) {
-      last_look_ns_ = senses.now_ns;
-      bearings_.look(senses.seen->X_AT, senses.X_DE * X_ET_, skill_.look_sd, speed_, noise_);
-    }
-    if (!bearings_.taken()) return;
-    const Pose X_PD = (bearings_.X_DA() * X_AP_).inverse();
-    if (first) at_P_ = X_PD * (senses.X_DE * X_ET_).translation();
-    felt_P_ +=
-        kFingertipSharp * dt / kPulseThinks_s * (X_PD.rotation() * senses.f_fingers_D - felt_P_);
-  }
-
   void go(PulseStep step, double now_s) {
     step_ = step;
-    since_s_ = now_s;
-    from_P_ = at_P_;
+    tool_.begin(now_s);
   }
-  bool moved(double now_s, double seconds, const Vec3& to_P) {
-    const MinJerk way(makePose(Mat3::Identity(), from_P_), makePose(Mat3::Identity(), to_P),
-                      since_s_, seconds);
-    at_P_ = way.at(now_s).translation();
-    return way.done(now_s);
-  }
-  double pressed() const { return -felt_P_.z() - air_N_; }
+  double pressed() const { return -tool_.felt_P().z() - air_N_; }
   void press(double gain) {
-    at_P_.z() = std::max(at_P_.z() + gain * (pressed() - want_N_) * kPulseThinks_s, -kPulseDeepest);
+    tool_.at_P.z() = std::max(
+        tool_.at_P.z() + gain * (pressed() - want_N_) * UprightTool::kThinks_s, -kPulseDeepest);
   }
 
   void begin(int trial, double now_s) {
@@ -150,7 +115,7 @@ class PulseHand final : public Hand {
   void leave(double now_s) {
     if (step_ == PulseStep::rest) return;
     if (step_ != PulseStep::done) go(PulseStep::done, now_s);
-    if (moved(now_s, kPulseLifts_s, {from_P_.x(), from_P_.y(), kPulseHover}))
+    if (tool_.moved(now_s, kPulseLifts_s, {tool_.from_P.x(), tool_.from_P.y(), kPulseHover}))
       step_ = PulseStep::rest;
   }
 
@@ -159,43 +124,44 @@ class PulseHand final : public Hand {
       case PulseStep::rest:
         return;
       case PulseStep::come:
-        if (!moved(now_s, at_place_ == 0 ? kPulseComes_s : kNextPlace_s, {x_, 0, kPulseHover}))
+        if (!tool_.moved(now_s, at_place_ == 0 ? kPulseComes_s : kNextPlace_s,
+                         {x_, 0, kPulseHover}))
           return;
-        air_N_ = -felt_P_.z();
+        air_N_ = -tool_.felt_P().z();
         return go(seen.question == Question::pulse_number || seen.question == Question::pulse_rhythm
                       ? PulseStep::number
                       : PulseStep::down,
                   now_s);
       case PulseStep::down:
-        at_P_.z() -= kPulseDown * kPulseThinks_s;
-        if (pressed() >= want_N_ || at_P_.z() <= -kPulseDeepest) go(PulseStep::settle, now_s);
+        tool_.at_P.z() -= kPulseDown * UprightTool::kThinks_s;
+        if (pressed() >= want_N_ || tool_.at_P.z() <= -kPulseDeepest) go(PulseStep::settle, now_s);
         return;
       case PulseStep::settle:
         press(kPressesAtOnce);
-        if (now_s - since_s_ < kSettles_s) return;
+        if (now_s - tool_.since_s < kSettles_s) return;
         sense_.begin();
         return go(aim_ == PulseAim::count ? PulseStep::mark : PulseStep::listen, now_s);
       case PulseStep::listen:
         press(kPressesOn);
         sense_.feel(pressed());
-        if (now_s - since_s_ >= skill_.listens_s) heard(now_s);
+        if (now_s - tool_.since_s >= skill_.listens_s) heard(now_s);
         return;
       case PulseStep::lift:
-        if (moved(now_s, kPulseLifts_s, {from_P_.x(), from_P_.y(), kPulseHover}))
+        if (tool_.moved(now_s, kPulseLifts_s, {tool_.from_P.x(), tool_.from_P.y(), kPulseHover}))
           go(PulseStep::come, now_s);
         return;
       case PulseStep::mark:
         press(kPressesOn);
         sense_.feel(pressed());
-        if (now_s - since_s_ < kHoldsButton_s) return;
+        if (now_s - tool_.since_s < kHoldsButton_s) return;
         return go(PulseStep::wait, now_s);
       case PulseStep::wait:  // then "now I count"
         press(kPressesOn);
         sense_.feel(pressed());
         if (seen.question == Question::pulse_count) return go(PulseStep::count, now_s);
-        if (now_s - since_s_ < kPulseWord_s) return;
+        if (now_s - tool_.since_s < kPulseWord_s) return;
         word_.kind = WordKind::done;
-        since_s_ = now_s;
+        tool_.since_s = now_s;
         return;
       case PulseStep::count:
         press(kPressesOn);
@@ -203,8 +169,8 @@ class PulseHand final : public Hand {
         if (sense_.feel(pressed())) count(now_s);
         return;
       case PulseStep::number:
-        if (moved(now_s, kPulseLifts_s, {from_P_.x(), from_P_.y(), kPulseHover}) &&
-            now_s - since_s_ >= kPulseWord_s)
+        if (tool_.moved(now_s, kPulseLifts_s, {tool_.from_P.x(), tool_.from_P.y(), kPulseHover}) &&
+            now_s - tool_.since_s >= kPulseWord_s)
           say(seen, now_s);
         return;
       case PulseStep::done:
@@ -268,19 +234,13 @@ class PulseHand final : public Hand {
   }
 
   PulseSkill skill_;
-  Pose X_AP_, X_ET_;
+  UprightTool tool_;
   std::vector<double> places_;  ///< m across, where it is looked for
-  RandomStream judgement_, noise_;
-  Tremor tremor_;
+  RandomStream judgement_;
   BeatSense sense_;
-  Bearings bearings_;
-  std::int64_t last_look_ns_ = -kPulseLooks_ns, next_thought_ns_ = 0;
-  Vec3 p_last_D_ = Vec3::Zero(), felt_P_ = Vec3::Zero();
   double speed_ = 0, air_N_ = 0;
   PulseStep step_ = PulseStep::rest;
   PulseAim aim_ = PulseAim::place;
-  double since_s_ = 0;
-  Vec3 at_P_ = Vec3::Zero(), from_P_ = Vec3::Zero();  ///< where the tip is wanted; a step began
   int trial_ = 0, typed_trial_ = 0;
   std::size_t at_place_ = 0, tried_ = 0;
   double x_ = 0;  ///< m, across: where it presses

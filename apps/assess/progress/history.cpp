@@ -88,8 +88,7 @@ bool PracticeTrial::succeeded() const {
 }
 
 bool counts(const PracticeTrial& trial) {
-  return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided &&
-         !trial.figures.empty();
+  return training::countsAsScored(trial.role, trial.outcome) && !trial.figures.empty();
 }
 
 bool failed(const PracticeTrial& trial) {

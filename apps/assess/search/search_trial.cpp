@@ -30,7 +30,7 @@ std::optional<SearchMode> searchModeOf(const std::string& text) {
 }
 
 bool counts(const SearchTrial& trial) {
-  return training::countsAsScored(trial.role) && trial.outcome != Outcome::voided;
+  return training::countsAsScored(trial.role, trial.outcome);
 }
 
 bool chose(const SearchTrial& trial) { return trial.outcome == Outcome::done && trial.chosen >= 0; }

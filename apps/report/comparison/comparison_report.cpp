@@ -25,10 +25,6 @@ svg .whisker{stroke:var(--ink);stroke-width:2;stroke-linecap:round}
 svg .dot-share{fill:var(--blue);stroke:var(--card);stroke-width:2}
 svg .threshold{stroke:var(--ink);stroke-width:1.2;stroke-opacity:.75}
 svg .threshold.level-2{stroke-dasharray:4 4}
-.answers{border-collapse:collapse;width:100%;font-size:.9rem}
-.answers th,.answers td{text-align:left;padding:.4rem .9rem .4rem 0;border-bottom:1px solid var(--line)}
-.answers thead th{font-weight:400;color:var(--muted)}
-.wrong-word{color:var(--bad-ink);font-weight:600}
 )css";
 
 constexpr const char* kShareSource =
@@ -40,7 +36,7 @@ constexpr const char* kSortingSource =
     "Biometrika 30, 1938.";
 
 bool countsIn(const assess::ComparisonTrial& trial) {
-  return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided;
+  return training::countsAsScored(trial.role, trial.outcome);
 }
 
 std::vector<assess::ComparisonTrial> thatCount(const std::vector<assess::ComparisonTrial>& trials) {

@@ -99,6 +99,11 @@ footer{padding-top:8px;padding-bottom:48px}
 .glossary dt,code{font:600 .8rem/1.7 ui-monospace,"SF Mono",Menlo,"DejaVu Sans Mono",monospace;
   color:var(--muted)}
 .glossary dd{margin:0}
+.answers{border-collapse:collapse;width:100%;font-size:.9rem}
+.answers th,.answers td{text-align:left;padding:.4rem .9rem .4rem 0;
+  border-bottom:1px solid var(--line)}
+.answers thead th{font-weight:400;color:var(--muted)}
+.wrong-word{color:var(--bad-ink);font-weight:600}
 )css";
 
 constexpr const char* kTrial = R"css(

@@ -17,10 +17,6 @@ svg .grid{stroke:var(--line);stroke-width:1}
 svg .equal{stroke:var(--ink);stroke-width:1.2;stroke-opacity:.75}
 svg .margin{stroke:var(--ink);stroke-width:1;stroke-opacity:.5;stroke-dasharray:4 4}
 svg .dot-share{fill:var(--blue);stroke:var(--card);stroke-width:2}
-.answers{border-collapse:collapse;width:100%;font-size:.9rem}
-.answers th,.answers td{text-align:left;padding:.4rem .9rem .4rem 0;border-bottom:1px solid var(--line)}
-.answers thead th{font-weight:400;color:var(--muted)}
-.wrong-word{color:var(--bad-ink);font-weight:600}
 )css";
 
 constexpr const char* kPulseSource =
@@ -28,7 +24,7 @@ constexpr const char* kPulseSource =
     "count are the beats that were delivered in that time.";
 
 bool pulseCounts(const assess::PulseTrial& trial) {
-  return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided;
+  return training::countsAsScored(trial.role, trial.outcome);
 }
 
 std::vector<assess::PulseTrial> pulsesThatCount(const std::vector<assess::PulseTrial>& trials) {
