@@ -13,11 +13,13 @@ namespace palpa::haptics {
 
 inline constexpr int kMostLumps = 6, kMostLumpKinds = 8;
 
-/// A virtual lump of one of a session's kinds, at a place.
+/// A lump of one of a session's kinds, at a place.
 struct PlacedLump {
   Packed3 p_T0{};          ///< m, where it rests
   std::uint32_t kind = 0;  ///< 1 to kMostLumpKinds; else there is none
-  std::uint32_t reserved = 0;
+  /// 0: it is not there, and is felt. Above, to 1: it lies in the real object, and this share of
+  /// what it adds is taken off
+  float taken = 0;
 };
 using PlacedLumps = std::array<PlacedLump, kMostLumps>;
 static_assert(std::is_trivially_copyable_v<PlacedLumps>);
@@ -45,6 +47,15 @@ struct PulsingArtery {
   std::array<PulseBeat, kMostBeats> beats{};
 };
 static_assert(std::is_trivially_copyable_v<PulsingArtery>);
+
+inline constexpr int kMostKeptOut = 2;
+
+/// A region that is to be kept out of, by a cue of the task: a ball.
+struct KeptOut {
+  Packed3 p_D{};      ///< m, its middle
+  double radius = 0;  ///< m; 0: there is none
+};
+static_assert(std::is_trivially_copyable_v<KeptOut>);
 
 /// Where the needle is in the manoeuvre, as the contact model knows it.
 enum class NeedlePhase : std::uint8_t { outside, indenting, inserted };
@@ -103,6 +114,8 @@ struct TickCommands {
   std::uint8_t asked = 0;          ///< the trial waits for an answer
   Packed3 line_p_D{}, line_a_D{};  ///< m; unit: a line for virtual fixtures; direction 0: none
   PulsingArtery artery;            ///< of this trial
+  std::array<KeptOut, kMostKeptOut> kept_out{};  ///< of this trial
+  double support = 0;  ///< 0 to 1: share of the cues that fade as the trainee becomes better
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);
 static_assert(offsetof(TickCommands, lumps) == offsetof(TickCommands, friction) + sizeof(float));

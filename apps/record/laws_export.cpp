@@ -85,8 +85,11 @@ json lumpsOf(const SessionReader& reader) {
   json all = json::object();
   for (const auto& [trial, lumps] : trials) {
     json placed = json::array();
-    for (const haptics::PlacedLump& lump : lumps)
-      if (lump.kind > 0) placed.push_back({{"kind", lump.kind}, {"p_P_m", lump.p_T0}});
+    for (const haptics::PlacedLump& lump : lumps) {
+      if (lump.kind == 0) continue;
+      placed.push_back({{"kind", lump.kind}, {"p_P_m", lump.p_T0}});
+      if (lump.taken > 0) placed.back()["taken"] = lump.taken;  // a real one, taken off
+    }
     if (trial > 0) all[std::to_string(trial)] = placed;
   }
   return all;

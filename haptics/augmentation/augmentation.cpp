@@ -20,7 +20,8 @@ struct ActiveAugmentation {
   const AugmentationInput& in;
   AugmentationState& state;
   std::size_t i;
-  double weight() const { return state.weight[i]; }
+  double weight() const { return state.weight[i] * (a.fades ? share() : 1); }
+  double share() const { return in.support > 0 ? std::min(in.support, 1.0) : 0; }
 };
 
 Vec3 wayOf(const ActiveAugmentation& p) noexcept {
@@ -102,6 +103,27 @@ Vec3 exaggeration(const ActiveAugmentation& p) noexcept {
   return p.weight() * p.a.amplitude * (p.in.f_contact - slow);
 }
 
+Vec3 fixture(const ActiveAugmentation& p, double steepest) noexcept {
+  const double held = std::min(p.a.amplitude, steepest), reach2 = p.a.reach * p.a.reach;
+  double share = 1;
+  if (p.a.reach > 0) share = std::max(0.0, 1 - p.in.to_line.squaredNorm() / reach2);
+  return p.weight() * held * share * share * p.in.to_line;
+}
+
+/// C(s) of safety/passive_law.h by the trapezoidal rule, which keeps it positive real, as a
+/// state-variable filter (two integrators and their sum): y = 2 z through.
+Vec3 steadying(const ActiveAugmentation& p) noexcept {
+  if (!(p.a.from_Hz > 0) || !(p.a.to_Hz > p.a.from_Hz) || !(p.in.dt > 0)) return Vec3::Zero();
+  const double middle = std::sqrt(p.a.from_Hz * p.a.to_Hz), g = 0.5 * kTwoPi * middle * p.in.dt,
+               r = (p.a.to_Hz - p.a.from_Hz) / middle;
+  const Vec3 first = unpack(p.state.slow[p.i]), second = unpack(p.state.band[p.i]);
+  const Vec3 v = p.in.dp / p.in.dt, through = (first + g * (v - second)) / (1 + g * (g + r)),
+             held = second + g * through;
+  p.state.slow[p.i] = pack(Vec3(2 * through - first));
+  p.state.band[p.i] = pack(Vec3(2 * held - second));
+  return -p.weight() * p.a.amplitude * r * through;
+}
+
 Vec3 forceOf(const ActiveAugmentation& p, double steepest) noexcept {
   switch (p.a.kind) {
     case AugmentationKind::none:
@@ -117,7 +139,11 @@ Vec3 forceOf(const ActiveAugmentation& p, double steepest) noexcept {
     case AugmentationKind::relief:
       return p.weight() * p.a.amplitude * p.in.footprint * wayOf(p);
     case AugmentationKind::fixture:
-      return p.weight() * std::min(p.a.amplitude, steepest) * p.in.to_line;
+      return fixture(p, steepest);
+    case AugmentationKind::keep_out:
+      return p.weight() * std::min(p.a.amplitude, steepest) * p.in.out_of;
+    case AugmentationKind::steadying:
+      return steadying(p);
   }
   return Vec3::Zero();
 }

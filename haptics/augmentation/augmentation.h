@@ -21,10 +21,16 @@ enum class AugmentationKind : std::uint8_t {
   attraction,
   /// A (f - low-pass f) of the contact force, time constant tau: what changes fast feels stronger
   exaggeration,
-  fixture,  ///< spring of stiffness A toward a line, across it
+  /// a guide: spring of stiffness A toward a line, across it; with a reach, A d (1 - (d/reach)^2)^2
+  /// at the distance d, and nothing beyond: who is far off is not drawn
+  fixture,
   /// A h / h_max along the way while over a bump of height h, however deep the probe is: a
   /// texture that the device is too soft for
-  relief
+  relief,
+  keep_out,  ///< a wall: spring of stiffness A out of a region that is entered
+  /// -A v_b against what trembles: the part v_b of the tip's velocity that a band passes (see
+  /// safety/passive_law.h for its law, its limit and its delay)
+  steadying
 };
 
 /// What is added to the force while a part of the task is on, so that the cue that matters for it
@@ -43,13 +49,17 @@ struct Augmentation {
   Way way = Way::up;
   std::uint8_t subtask = kAnySubtask;
   std::uint32_t events = 0;  ///< TickEvent bits that trigger it
-  double amplitude = 0;      ///< A: N; of an exaggeration times; of a fixture N/m
-  double width_s = 0.010;    ///< of a pulse
-  double frequency_Hz = 0;   ///< f of a vibration
-  double wavelength = 0;     ///< m; where given, in place of f
-  double reach = 0;          ///< m, of an attraction
-  double tau_s = 0;          ///< a vibration's decay after its trigger, an exaggeration's low-pass
-  double blend_s = 0.02;     ///< in and out with its part, evenly
+  /// A: N; of an exaggeration times; of a fixture and a keep-out N/m; of a steadying N s/m
+  double amplitude = 0;
+  double width_s = 0.010;   ///< of a pulse
+  double frequency_Hz = 0;  ///< f of a vibration
+  double wavelength = 0;    ///< m; where given, in place of f
+  double reach = 0;         ///< m, of an attraction, a fixture (0: any)
+  double tau_s = 0;         ///< a vibration's decay after its trigger, an exaggeration's low-pass
+  double blend_s = 0.02;    ///< in and out with its part, evenly
+  double from_Hz = 0, to_Hz = 0;  ///< of a steadying: the band's ends
+  std::uint8_t fades = 0;         ///< 1: times `support`, which falls as the trainee becomes better
+  std::uint8_t reserved[7]{};
 };
 static_assert(std::is_trivially_copyable_v<Augmentation>);
 
@@ -60,7 +70,7 @@ struct AugmentationPlan {
   std::uint32_t count = 0;
   std::uint32_t reserved = 0;
   double largest = 0;  ///< N, of all together
-  /// N/m: attraction and fixture rise no steeper, so that the device can hold them
+  /// N/m: attraction, fixture and keep-out rise no steeper, so that the device can hold them
   double steepest = 1000;
   double speed_tau = 0.005;  ///< s, of the speed that parts are told by
   LearnedModel learned;      ///< by which Signal::learned tells
@@ -83,6 +93,8 @@ struct AugmentationInput {
   Vec3 to_valley = Vec3::Zero();  ///< m, along the surface
   double valley_radius = 0;       ///< U; 0: no valley is near
   Vec3 to_line = Vec3::Zero();    ///< m, across the line; 0: none
+  Vec3 out_of = Vec3::Zero();     ///< m, the way out of regions that were entered; 0: none
+  double support = 1;             ///< 0 to 1, of what fades
   double dt = 0.001;
   std::int64_t now_ns = 0;
 };
@@ -92,8 +104,10 @@ struct AugmentationState {
   std::array<double, kMostAugmentations> weight{};  ///< 0 to 1
   /// s since its trigger, below 0: not triggered
   std::array<double, kMostAugmentations> elapsed{};
-  std::array<double, kMostAugmentations> way{};    ///< s or m, of a vibration
-  std::array<Packed3, kMostAugmentations> slow{};  ///< N, low-passed contact force
+  std::array<double, kMostAugmentations> way{};  ///< s or m, of a vibration
+  /// N, low-passed contact force; of a steadying its band's first state, m/s
+  std::array<Packed3, kMostAugmentations> slow{};
+  std::array<Packed3, kMostAugmentations> band{};  ///< m/s, its second
   std::uint32_t was = 0;      ///< bit i: the trigger of i was there in the last tick
   std::uint32_t started = 0;  ///< bit i: `slow` is there; bit 31: `elapsed` is
   LearnedState learned;

@@ -32,7 +32,7 @@ double lumpEdge(const TickConfig& config, const TickFrame& frame) noexcept {
   double nearest = kFarAway;
   const Vec3 p_P = touchIn(config, frame.record.sensed).p_M;
   for (const PlacedLump& lump : frame.record.commands.lumps) {
-    if (lump.kind < 1 || lump.kind > kMostLumpKinds) continue;
+    if (lump.kind < 1 || lump.kind > kMostLumpKinds || lump.taken > 0) continue;
     const double across = pinned::hypot(p_P.x() - lump.p_T0[0], p_P.y() - lump.p_T0[1]);
     nearest = std::min(nearest, across - config.lump_radius[lump.kind - 1]);
   }
@@ -128,6 +128,18 @@ Vec3 toLine(const TickCommands& commands, const Vec3& p_D) noexcept {
   return d - d.dot(a) * a;
 }
 
+/// The way out of every region that the tip is in, all together.
+Vec3 outOf(const TickCommands& commands, const Vec3& p_D) noexcept {
+  constexpr double kMiddle = 1e-6;  // m: there no way is the shortest
+  Vec3 out = Vec3::Zero();
+  for (const KeptOut& region : commands.kept_out) {
+    const Vec3 from = p_D - unpack(region.p_D);
+    const double far = from.norm(), deep = region.radius - far;
+    if (deep > 0 && far > kMiddle && std::isfinite(deep)) out += deep / far * from;
+  }
+  return out;
+}
+
 }  // namespace
 
 NeedleContact floorContact(const TickConfig& config, TickState& state, const Floor* floor,
@@ -173,6 +185,8 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   in.up = upOf(config, state);
   in.tool = frame->pose.a_D;
   in.to_line = toLine(frame->record.commands, p_D);
+  in.out_of = outOf(frame->record.commands, p_D);
+  in.support = frame->record.commands.support;
   in.dt = frame->input.dt;
   in.now_ns = frame->input.now_ns;
   if (in.allowed && touch && floor && floor->surface)

@@ -14,16 +14,6 @@ constexpr double kAngleDoubt = 0.01;     // N across a reaction [chosen]
 constexpr double kForceDoubt = 0.025;    // N, of a reaction [chosen]
 constexpr double kLawDoubt = 0.05;       // of a depth that the law tells [chosen]
 
-/// The part of a motion that slides over a surface of normal u, which a force of f N tells: a light
-/// one badly.
-Vec3 slidOf(const Vec3& dp, const Vec3& u, double f) noexcept {
-  const double pressed = dp.dot(u);
-  const Vec3 along = dp - pressed * u;
-  const double length = along.norm(),
-               sticks = (kPressedWithin + kAngleDoubt / f) * std::abs(pressed);
-  return length > sticks ? Vec3(along * (1 - sticks / length)) : Vec3(Vec3::Zero());
-}
-
 /// Where both begin to touch, from one tick's distance and squeezing force.
 void learnBegin(const SqueezeModulation& law, double apart, double F,
                 SqueezeState& state) noexcept {
@@ -40,6 +30,14 @@ void learnBegin(const SqueezeModulation& law, double apart, double F,
 
 }  // namespace
 
+Vec3 slidOver(const Vec3& dp, const Vec3& u, double f) noexcept {
+  const double pressed = dp.dot(u);
+  const Vec3 along = dp - pressed * u;
+  const double length = along.norm(),
+               sticks = (kPressedWithin + kAngleDoubt / f) * std::abs(pressed);
+  return length > sticks ? Vec3(along * (1 - sticks / length)) : Vec3(Vec3::Zero());
+}
+
 Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, const Vec3& dp,
                             double dt, StiffnessModulationState* state) noexcept {
   if (!f_r.allFinite() || !dp.allFinite() || !(dt > 0) || f_r.norm() < law.least_contact) {
@@ -49,7 +47,7 @@ Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, con
   // At first touch the reaction itself is the best normal there is; from then on the last one.
   const Vec3 u_before = state->f_n > 0 ? unpack(state->u_n) : Vec3(f_r.normalized());
   const double f_before = state->f_n > 0 ? state->f_n : f_r.norm();
-  const Vec3 slid = slidOf(dp, u_before, f_before),
+  const Vec3 slid = slidOver(dp, u_before, f_before),
              drag = dragOf(law.friction, slid, u_before, f_before, dt, &state->friction);
   const Vec3 f_rn = f_r + drag;
   Modulated now;

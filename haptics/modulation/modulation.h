@@ -45,6 +45,10 @@ struct Modulated {
   Vec3 slid = Vec3::Zero();  ///< m, how far the tip slid over the surface in this tick
 };
 
+/// The part of a tip's motion dp, m, that slides over a surface of unit normal u, where it presses
+/// with f N; `modulateStiffness` says which part that is.
+Vec3 slidOver(const Vec3& dp, const Vec3& u, double f) noexcept;
+
 /// Without a model of the object's shape, from the reaction f_r on the tool (N; tool weight and
 /// dynamics taken off) and the tip's motion dp in this tick (m):
 ///     f_r^t = -drag (Dahl, in the plane across u_s)

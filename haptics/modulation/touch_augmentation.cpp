@@ -1,5 +1,6 @@
 #include "haptics/modulation/touch_augmentation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpa::haptics {
@@ -26,6 +27,22 @@ Modulated feel(const TouchAugmentation& law, const ToolTouch& tool, double dt, s
   return modulateStiffness(law.surface.contact, tool.f_r, dp, dt, &state->surface[t].contact);
 }
 
+/// In place of another stiffness and friction; what other lumps are put into is the object alone.
+void takeAway(const TouchAugmentation& law, const PlacedLumps& lumps,
+              const std::array<TouchAboveLumps, 2>& tools, double dt, TakenState* state,
+              std::array<InclusionContact, 2>* contacts, AugmentedTouch* now) noexcept {
+  const TakenLumps taken =
+      takeLumps(law.surface.contact, law.kinds, lumps, law.tip_radius, tools, dt, state);
+  now->d = taken.d;
+  now->iterations += taken.iterations;
+  now->f_d = taken.f_d;
+  for (std::size_t t = 0; t < 2; ++t) {
+    if (!taken.contacts[t].touching) continue;
+    (*contacts)[t] = taken.contacts[t];
+    now->touch[t].x = taken.contacts[t].x;
+  }
+}
+
 }  // namespace
 
 AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,
@@ -33,18 +50,26 @@ AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lum
                             TouchAugmentationState* state) noexcept {
   AugmentedTouch now;
   std::array<InclusionContact, 2> contacts;
+  std::array<TouchAboveLumps, 2> above;
   for (std::size_t t = 0; t < 2; ++t) {
+    above[t] = {tools[t].present, tools[t].p_M, Vec3::Zero(), tools[t].f_r};
+    if (state->held[t]) above[t].dp = tools[t].p_M - unpack(state->p_before[t]);
     now.touch[t] = feel(law, tools[t], dt, t, state);
     const Modulated& touch = now.touch[t];
     now.f_source[t] = textureForce(law.texture, touch.contact ? touch.f_n : 0, touch.slid, dt,
                                    &state->texture[t]) *
                       touch.u_n;
-    now.f_d[t] = touch.f_d + now.f_source[t];
-    contacts[t] = {now.touch[t].contact, Vec3(tools[t].p_M - law.tip_radius * now.touch[t].u_n),
-                   now.touch[t].u_n, now.touch[t].x, law.tip_radius};
+    now.f_d[t] = touch.f_d;
+    contacts[t] = {touch.contact, Vec3(tools[t].p_M - law.tip_radius * touch.u_n), touch.u_n,
+                   touch.x, law.tip_radius};
   }
+  if (std::any_of(lumps.begin(), lumps.end(), isTaken))
+    takeAway(law, lumps, above, dt, &state->taken, &contacts, &now);
+  else
+    state->taken = {};
+  for (std::size_t t = 0; t < 2; ++t) now.f_d[t] += now.f_source[t];
   for (std::size_t i = 0; i < lumps.size(); ++i) {
-    if (lumps[i].kind == 0 || lumps[i].kind > law.kinds.size()) {
+    if (lumps[i].kind == 0 || lumps[i].kind > law.kinds.size() || lumps[i].taken > 0) {
       state->lumps[i] = {};
       continue;
     }

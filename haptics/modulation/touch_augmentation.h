@@ -7,10 +7,11 @@
 #include "haptics/flight_record.h"
 #include "haptics/materials/texture.h"
 #include "haptics/modulation/modulation.h"
+#include "haptics/modulation/taken_lumps.h"
 #include "haptics/modulation/virtual_inclusion.h"
 
 /// What haptic augmented reality adds to a real object under one tool or two, in one tick: another
-/// stiffness and friction, a texture, lumps that are not there.
+/// stiffness and friction, a texture, lumps that are not there, or not felt though they are.
 namespace palpa::haptics {
 
 struct TouchAugmentation {
@@ -35,6 +36,7 @@ struct ToolTouch {
 struct TouchAugmentationState {
   std::array<FrictionModulationState, 2> surface;
   std::array<InclusionState, kMostLumps> lumps;
+  TakenState taken;
   std::array<TextureState, 2> texture;
   std::array<Packed3, 2> p_before{};    ///< m
   std::array<std::uint32_t, 2> held{};  ///< p_before is there
@@ -55,8 +57,9 @@ struct AugmentedTouch {
 ///            +  w* u_n*  +  sum over lumps (f_T* + f_t* (f_T* . u_n*) / f_n*)
 /// w: of the texture (`textureForce`), by the real normal force and what slides.
 /// f_targ: of mu and B of the wanted friction, times the tool's factor (0 or more; else 1).
-/// Each lump feels both tools, and no other lump. Where there is no contact there is no force. No
-/// allocation, no exception.
+/// Where lumps are real and taken off, `takeLumps` has the place of the first line: nothing else is
+/// changed of the surface then. Each lump feels both tools, and no other lump. Where there is no
+/// contact there is no force. No allocation, no exception.
 AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,
                             const std::array<ToolTouch, 2>& tools, double dt,
                             TouchAugmentationState* state) noexcept;

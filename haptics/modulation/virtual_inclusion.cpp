@@ -93,7 +93,12 @@ class InclusionForces {
     const double scale = lump_.l0 / from_surface_[t];
     b->l[t] = std::max(scale * (from_surface_[t] - apart), 0.0);
     if (b->l[t] <= 0) return;
-    const Implicit felt = implicitly(lump_.H_T, b->l[t], l_before_[t], dt_, &at_floor_);
+    Implicit felt = implicitly(lump_.H_T, b->l[t], l_before_[t], dt_, &at_floor_);
+    if (lump_.falls != 0) {
+      const double share = pinned::pow(scale, lump_.falls);
+      felt.f *= share;
+      felt.slope *= share;
+    }
     const Vec3 to_middle = line + tools_[t].radius * tools_[t].u_n;
     const double from_middle = std::max(to_middle.norm(), kNearestToLump);
     const Vec3 n = to_middle / from_middle;

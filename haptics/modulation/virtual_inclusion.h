@@ -15,6 +15,7 @@ struct VirtualInclusion {
   double l0 = 0;     ///< m, from its place to the surface where it was identified
   HuntCrossley H_T;  ///< what it adds, against how much the way between tool and lump is shortened
   std::array<HuntCrossley, 3> G;  ///< its bed along x, y, z: what it takes to push it so far
+  double falls = 0;               ///< q below; 0: as the source has it
 };
 static_assert(std::is_trivially_copyable_v<VirtualInclusion>);
 
@@ -45,7 +46,7 @@ inline constexpr int kMostInclusionIterations = 24;
 ///     p_Hs = p_H + x u_n,   l0* = |p_Hs - p_T0|       where the undeformed surface was, updated
 ///                                                     every tick
 ///     l = (l0 / l0*) (l0* - |p_H - p_T|),   p_T = p_T0 + d                 (10.19)
-///     f_T = H_T(l, l') (p_C - p_T) / |p_C - p_T|,  zero for l <= 0         (10.18)
+///     f_T = (l0 / l0*)^q H_T(l, l') (p_C - p_T) / |p_C - p_T|,  zero for l <= 0       (10.18)
 ///     p_C = p_H + radius u_n      where the source has p_H: its tip was small
 /// and for the lump, i = x, y, z:
 ///     sgn(d_i) G_i(|d_i|, sgn(d_i) d_i') = - sum f_T,i                     (10.20)
