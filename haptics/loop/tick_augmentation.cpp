@@ -131,11 +131,12 @@ Vec3 toLine(const TickCommands& commands, const Vec3& p_D) noexcept {
 /// The way out of every region that the tip is in, all together.
 Vec3 outOf(const TickCommands& commands, const Vec3& p_D) noexcept {
   constexpr double kMiddle = 1e-6;  // m: there no way is the shortest
+  constexpr double kLargest = 1;    // m: larger than any device's workspace
   Vec3 out = Vec3::Zero();
   for (const KeptOut& region : commands.kept_out) {
     const Vec3 from = p_D - unpack(region.p_D);
     const double far = from.norm(), deep = region.radius - far;
-    if (deep > 0 && far > kMiddle && std::isfinite(deep)) out += deep / far * from;
+    if (deep > 0 && far > kMiddle && region.radius <= kLargest) out += deep / far * from;
   }
   return out;
 }

@@ -62,7 +62,8 @@ inline constexpr HuntCrossley kSoftThing{900, 300, 1.4};
 /// fail. Knows nothing of the tick: it only makes its inputs.
 struct FaultyWorld {
   Dice& dice;
-  bool cues = false;  ///< a task's cues of every kind add force
+  bool cues = false;          ///< a task's cues of every kind add force
+  bool lump_is_real = false;  ///< the second lump, which is taken off
   TickConfig config;
   TickCommands commands;
   DeviceReading reading;
@@ -110,6 +111,7 @@ struct FaultyWorld {
     config.touch.tip_radius = 0.008;
     config.floor.weight_N = dice.uniform(0, 0.5);
     if (with_cues) nameCues();
+    lump_is_real = dice.chance(0.5);
   }
 
   /// What is under a probe in the tick: a floor, where there is one.
@@ -131,6 +133,9 @@ struct FaultyWorld {
     commands.line_a_D = {1, 0, 0};
     commands.lumps[0] = {{0.002, 0, -0.014}, 1};
     commands.lumps[3] = {{-0.01, 0.004, -0.014}, 1};
+    if (lump_is_real) commands.lumps[3].taken = 1;
+    commands.kept_out[0] = {pack(Vec3(0, 0, -0.01)), 0.012};
+    commands.support = 0.7;
     sense();
     reading.homed = 1;
     reading.buttons = 7;
@@ -164,18 +169,23 @@ struct FaultyWorld {
         Signal::contact_force, Condition::Compare::at_least, 0, {}, dice.uniform(0.01, 0.5), 0.05};
     for (const AugmentationKind kind :
          {AugmentationKind::pulse, AugmentationKind::vibration, AugmentationKind::attraction,
-          AugmentationKind::exaggeration, AugmentationKind::fixture, AugmentationKind::relief}) {
+          AugmentationKind::exaggeration, AugmentationKind::fixture, AugmentationKind::relief,
+          AugmentationKind::keep_out, AugmentationKind::steadying}) {
       Augmentation& a = plan.each[plan.count++];
       a.kind = kind;
       a.subtask = dice.chance(0.5) ? kAnySubtask : 0;
-      a.amplitude =
-          kind == AugmentationKind::fixture ? dice.uniform(10, 1e5) : dice.uniform(0.1, 50);
+      a.amplitude = kind == AugmentationKind::fixture || kind == AugmentationKind::keep_out
+                        ? dice.uniform(10, 1e5)
+                        : dice.uniform(0.1, 50);
       a.trigger = kind == AugmentationKind::pulse    ? Augmentation::Trigger::begin
                   : kind == AugmentationKind::relief ? Augmentation::Trigger::bump
                                                      : Augmentation::Trigger::none;
       a.frequency_Hz = dice.uniform(20, 300);
       a.reach = 0.001;
       a.tau_s = dice.uniform(0.005, 0.1);
+      a.from_Hz = dice.uniform(5, 10);
+      a.to_Hz = dice.uniform(8, 40);
+      a.fades = dice.chance(0.5);
     }
     plan.largest = dice.uniform(0, 20);
     plan.steepest = config.coupling.stiffness;
@@ -311,6 +321,9 @@ struct FaultyWorld {
       commands.lumps[0].p_T0[static_cast<std::size_t>(dice.below(3))] = dice.absurd();
       commands.line_p_D[0] = commands.line_a_D[1] = dice.absurd();
       commands.lumps[3].kind = static_cast<std::uint32_t>(dice.bits());
+      commands.lumps[3].taken = static_cast<float>(dice.absurd());
+      commands.kept_out[1] = {{dice.absurd(), 0, 0}, dice.absurd()};
+      commands.support = dice.absurd();
     }
     if (fault == Fault::sensor_absurd) harmSensor();
     if (fault == Fault::sensor_silent)
