@@ -53,6 +53,8 @@ constexpr const char* kPalpationExamples = R"(Examples:
       the liver's edge is felt in every case, and is not a lump
   palpa palpation --preset prostate --operator novice --trials 8 --fast
       a smaller phantom, eight cases: the fewest on which a trainee passes or fails
+  palpa palpation --preset taken --operator expert --trials 8 --fast
+      a lump that really lies in the silicone: felt in half of the cases, taken away in the others; what of that is passive is printed first
   palpa palpation --tools 2 --operator expert --fast
       two fingers side by side, each on a device of its own; what is found is rolled between them
   palpa palpation --station my_station.json --guidance on --trials 16
@@ -64,7 +66,8 @@ Button 1 of the device: here is a lump. With a mouse: move it over the phantom, 
 
 const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_abdomen.json"},
                                                   {"breast", "tasks/palpation_breast.json"},
-                                                  {"prostate", "tasks/palpation_prostate.json"}};
+                                                  {"prostate", "tasks/palpation_prostate.json"},
+                                                  {"taken", "tasks/palpation_taken.json"}};
 
 }  // namespace
 
@@ -76,9 +79,12 @@ void addPalpation(CLI::App& program) {
   command->footer(kPalpationExamples);
   const auto preset = std::make_shared<std::string>("breast");
   command
-      ->add_option("--preset", *preset, "Phantom and cases: breast (default), abdomen or prostate")
+      ->add_option(
+          "--preset", *preset,
+          "Phantom and cases: breast (default), abdomen, prostate, or taken: a real lump that is "
+          "felt or taken away")
       ->check(oneOf(keysOf(kPresets)))
-      ->type_name("abdomen|breast|prostate");
+      ->type_name("abdomen|breast|prostate|taken");
   command->add_option("--task", options->task, "Task file, in place of a preset")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));

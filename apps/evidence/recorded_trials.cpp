@@ -48,6 +48,7 @@ Value fieldOf(const std::string& text, const char* field, const Value& otherwise
 /// What the record says of a trial besides its ticks.
 struct Said {
   std::vector<assess::CaseLump> lumps;
+  bool taken_away = false;
   std::vector<runtime::Event> grades;
 };
 
@@ -55,7 +56,10 @@ Said saidIn(const std::vector<runtime::Event>& events, int trial) {
   Said said;
   for (const runtime::Event& event : events) {
     if (event.trial != trial) continue;
-    if (event.is(EventKind::trial_case)) said.lumps = task_palpation::caseOf(event.text);
+    if (event.is(EventKind::trial_case)) {
+      said.lumps = task_palpation::caseOf(event.text);
+      said.taken_away = task_palpation::takenIn(event.text);
+    }
     if (event.is(EventKind::grade)) said.grades.push_back(event);
   }
   return said;
@@ -124,8 +128,9 @@ struct PalpationInWords {
                               ? fieldOf(trial.end.scores_json, "GUIDED", 0.0, "a trial's score")
                               : 0;
     const assess::PalpationFacts facts{
-        header.trial, training::roleNamed(header.role),          simulated, header.force_feedback,
-        header.seed,  training::outcomeNamed(trial.end.outcome), guided,    augmented};
+        header.trial,   training::roleNamed(header.role),          simulated, header.force_feedback,
+        header.seed,    training::outcomeNamed(trial.end.outcome), guided,    augmented,
+        said.taken_away};
     return assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
                                    listener.samples(), listener.marks());
   }

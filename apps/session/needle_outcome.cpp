@@ -122,6 +122,8 @@ std::vector<report::Fact> stationFacts(const SessionOptions& options, const Need
   else
     facts.insert(facts.begin() + 3, {"Patient", world.patient.name,
                                      std::string(anatomy::name(world.patient.side)) + " side"});
+  for (report::Fact& fact : steadyingFacts(options, world.task.augmentations, world.station))
+    facts.push_back(std::move(fact));
   if (!world.not_scored.empty()) facts.push_back({"Score", "none", world.not_scored});
   if (world.expert_path) {
     facts.push_back({"Expert path", format("from %d expert trials", world.expert_path->trials),

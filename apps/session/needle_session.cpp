@@ -109,6 +109,7 @@ class NeedleSession {
             .plan = plan(options_, world_, person),
             .places = frame_.places(),
             .augmentations = world_.tickConfig().augmentations,
+            .fixtures = world_.fixtures(),
             .answers = answerButtons(world_.station),
             .said = saidIn(world_.station)};
   }

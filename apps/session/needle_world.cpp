@@ -145,6 +145,27 @@ haptics::TickConfig NeedleWorld::tickConfig() const {
   return config;
 }
 
+/// A ball ends 2 mm before the line's end, so that it never bars the way to the vein.
+task_needle::NeedleFixtures NeedleWorld::fixtures() const {
+  constexpr double kClear = 0.002;  // m [chosen]
+  task_needle::NeedleFixtures fixtures;
+  if (!taught_path || !landmarks) return fixtures;
+  const Vec3 from_A = landmarks->pointToA(taught_path->line_from_L),
+             to_A = landmarks->pointToA(taught_path->line_to_L);
+  fixtures.line_p_D = pack(Vec3(X_DA * to_A));
+  fixtures.line_a_D = pack(Vec3(X_DA.linear() * (to_A - from_A).normalized()));
+  std::size_t next = 0;
+  for (const task_needle::KeepOutOrgan& organ : task.keep_out) {
+    const int surface = surfaceIndex(patient, organ.organ);
+    if (surface < 0) continue;
+    const anatomy::SurfacePoint nearest = query.closest(surface, to_A);
+    const Vec3 middle_A = nearest.p_A - organ.radius * nearest.n_A;
+    const double radius = std::min(organ.radius + organ.margin, (middle_A - to_A).norm() - kClear);
+    if (radius > 0) fixtures.kept_out[next++] = {pack(Vec3(X_DA * middle_A)), radius};
+  }
+  return fixtures;
+}
+
 twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill,
                                           bool knows_patient) const {
   twin::VisibleAnatomy v;

@@ -44,6 +44,9 @@ struct NeedleWorld {
   Pose X_WA, X_DA;
 
   haptics::TickConfig tickConfig() const;
+  /// What cues of the task may lead along and keep out of: the taught line of the second phase, and
+  /// balls on the organs that the task names. Empty where no path is taught here.
+  task_needle::NeedleFixtures fixtures() const;
   /// What a simulated operator knows: the landmarks, and where the vein lies in the mean anatomy
   /// or, where he has studied this patient's images, in the patient as he is shown.
   twin::VisibleAnatomy visible(const twin::OperatorSkill& skill, bool knows_patient) const;

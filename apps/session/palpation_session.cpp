@@ -1,14 +1,11 @@
 #include "apps/session/palpation_session.h"
-#include "apps/runtime/clock.h"
-#include "apps/training/trial_words.h"
 
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <tuple>
-
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "anatomy/base/counted.h"
 #include "apps/evidence/recorded_trials.h"
@@ -19,6 +16,7 @@
 #include "apps/station/assets.h"
 #include "apps/task_palpation/palpation_scene.h"
 #include "apps/task_palpation/palpation_task.h"
+#include "apps/training/trial_words.h"
 #include "apps/twin/feeling_hands.h"
 #include "apps/twin/soft_samples.h"
 
@@ -27,26 +25,6 @@ namespace {
 
 constexpr double kPickedUp = 0.05;  // m above the phantom
 constexpr double kBeside = 0.02;    // m, of the second finger
-
-station::Station palpationStation(const SessionOptions& options) {
-  station::Station station = station::readStation(
-      options.station.empty() ? station::assetFile("stations/palpation_bench.json")
-                              : std::filesystem::path(options.station));
-  station::judgeAge(station, runtime::utcNow());
-  if (!station.sample)
-    throw UsageError("has no \"sample\"", station.file.name(),
-                     "Say where the phantom lies: sample/X_WP, sample/tip_radius_mm");
-  if (!station.force_sensor)
-    throw UsageError("has no \"force_sensor\"", station.file.name(),
-                     "Lumps are added to what is felt of the phantom: that must be measured. "
-                     "Describe the sensor");
-  if (station.device.driver == station::DeviceDriver::bench &&
-      station.force_sensor->driver != station::ForceSensorDriver::bench)
-    station.file.refuse("force_sensor/driver",
-                        "is a real sensor, but the device is simulated and touches simulated "
-                        "silicone; it must be \"virtual\", too");
-  return station;
-}
 
 /// What anybody sees or has learnt of the phantom.
 twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
@@ -63,7 +41,7 @@ twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
 }  // namespace
 
 PalpationWorld::PalpationWorld(const SessionOptions& options)
-    : station(palpationStation(options)),
+    : station(feelingStation(options)),
       task(task_palpation::readPalpation(options.task.empty()
                                              ? station::assetFile("tasks/palpation_breast.json")
                                              : std::filesystem::path(options.task))),
@@ -73,8 +51,26 @@ PalpationWorld::PalpationWorld(const SessionOptions& options)
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
     station.file.refuse("sample/tip_radius_mm",
                         "is not that of the tip with which the task's lumps were identified");
+  if (task.real) task.real->share = takenLimit(options.rate_Hz).share();
+  if (task.real && onBench() && task.real->lump.p_P.head<2>().norm() > 1e-6)
+    throw UsageError("is in the middle of the bench's samples", "real_lump", "Give 0 and 0");
   if (!onBench() && (station.safety.deadman_button & task_palpation::PalpationListener::kMark))
     station.file.refuse("safety/deadman_button", "is the button that marks a lump; give another");
+}
+
+station::TakenLimit PalpationWorld::takenLimit(double rate_Hz) const {
+  return station::takenLimit(station, task.library, task.real->lump.kind,
+                             task.scoring.rules.too_hard, rate_Hz);
+}
+
+std::vector<report::Fact> PalpationWorld::takenFacts(const SessionOptions& options) const {
+  std::vector<report::Fact> facts = steadyingFacts(options, task.augmentations, station);
+  if (task.real)
+    facts.push_back({"A real lump, taken away in " + format("%.0f %%", 100 * task.real->taken_in) +
+                         " of the cases",
+                     station::inWords(takenLimit(options.rate_Hz)),
+                     task.library.kinds[task.real->lump.kind].name + ", in the phantom"});
+  return facts;
 }
 
 void PalpationWorld::checkFingers(const SessionOptions& options) const {
@@ -85,8 +81,9 @@ void PalpationWorld::checkFingers(const SessionOptions& options) const {
   if (station.device.driver != station::DeviceDriver::bench || options.who == OperatorKind::person)
     throw UsageError("can only be simulated so far", "--tools 2",
                      "Leave out --station, take --operator expert or novice");
-  if (options.augment)
-    throw UsageError("adds to what one tool feels", "--augment on with --tools 2",
+  if (options.augment || task.real)
+    throw UsageError("changes what one tool feels",
+                     options.augment ? "--augment on with --tools 2" : "A real lump, --tools 2",
                      "Leave one of them out");
 }
 
@@ -141,7 +138,9 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
         .X_WD = *station.second_X_WD,
         .X_DE_start = station.second_X_WD->inverse() * pickedUp(kBeside) * station.X_ET.inverse()};
   if (onBench()) {
-    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
+    const auto sample = std::make_shared<twin::SampleTwin>(
+        station, task.real ? task.library.kinds[task.real->lump.kind].name : "",
+        options.benchSeed());
     const bool two = options.tools == 2;
     bench.real_thing = [sample, two](const std::array<Pose, 2>& X_WT_true, double dt) {
       const auto felt = [](const twin::SampleTouch& touch) {
@@ -273,6 +272,7 @@ ReportHead PalpationWorld::head(const SessionOptions& options) const {
     head.station.push_back(
         {"Tools", "two fingers side by side", "each lump is solved under both; each is judged"});
   for (report::Fact& fact : lumpFacts(task.library)) head.station.push_back(std::move(fact));
+  for (report::Fact& fact : takenFacts(options)) head.station.push_back(std::move(fact));
   head.parts = meaningsOf(task.augmentations);
   head.doses = noDoses(tickConfig(options).augmentations, task.augmentations);
   return head;

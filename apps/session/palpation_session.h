@@ -10,6 +10,7 @@
 #include "apps/session/session_frame.h"
 #include "apps/session/session_options.h"
 #include "apps/station/station_file.h"
+#include "apps/station/taken_away.h"
 #include "apps/task_palpation/palpation_file.h"
 #include "apps/task_palpation/palpation_task.h"
 
@@ -31,6 +32,10 @@ struct PalpationWorld {
     return isSimulated(options.who) || station.simulated || task.library.simulated;
   }
   bool onBench() const { return station.device.driver == station::DeviceDriver::bench; }
+  /// How much of the lump that lies in the phantom this device may take away, where one does.
+  station::TakenLimit takenLimit(double rate_Hz) const;
+  /// The same in words, what is steadied, too: said before anything starts, and in the report.
+  std::vector<report::Fact> takenFacts(const SessionOptions& options) const;
   /// That whoever palpates has a device for each finger. Throws UsageError.
   void checkFingers(const SessionOptions& options) const;
   haptics::TickConfig tickConfig(const SessionOptions& options) const;

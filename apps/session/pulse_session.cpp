@@ -15,32 +15,9 @@
 #include "apps/twin/feeling_hands.h"
 
 namespace palpa::session {
-namespace {
-
-station::Station pulseStation(const SessionOptions& options) {
-  station::Station station = station::readStation(
-      options.station.empty() ? station::assetFile("stations/palpation_bench.json")
-                              : std::filesystem::path(options.station));
-  station::judgeAge(station, runtime::utcNow());
-  if (!station.sample)
-    throw UsageError("has no \"sample\"", station.file.name(),
-                     "Say where the silicone lies: sample/X_WP, the middle of its top, and "
-                     "sample/tip_radius_mm");
-  if (!station.force_sensor)
-    throw UsageError("has no \"force_sensor\"", station.file.name(),
-                     "The station must measure the force on what is pressed: describe the sensor");
-  if (station.device.driver == station::DeviceDriver::bench &&
-      station.force_sensor->driver != station::ForceSensorDriver::bench)
-    station.file.refuse("force_sensor/driver",
-                        "is a real sensor, but the device is simulated and touches simulated "
-                        "silicone; it must be \"virtual\", too");
-  return station;
-}
-
-}  // namespace
 
 PulseWorld::PulseWorld(const SessionOptions& options)
-    : station(pulseStation(options)),
+    : station(feelingStation(options)),
       task(task_pulse::readPulse(options.task.empty() ? station::assetFile("tasks/pulse.json")
                                                       : std::filesystem::path(options.task))),
       object(anatomy::phantomBlock(task.size, task.title)),

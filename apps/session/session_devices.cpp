@@ -4,7 +4,10 @@
 #include <numbers>
 
 #include "anatomy/base/counted.h"
+#include "anatomy/base/error.h"
 #include "apps/record/session_file.h"
+#include "apps/runtime/clock.h"
+#include "apps/station/assets.h"
 #include "apps/trial/trial_status.h"
 #include "apps/twin/soft_samples.h"
 #include "haptics/devices/falcon/falcon_protocol.h"
@@ -87,6 +90,27 @@ SessionDevices::Hands SessionDevices::overSilicone(const SessionOptions& options
     };
   }
   return {std::move(bench), std::nullopt, tip_radius};
+}
+
+station::Station feelingStation(const SessionOptions& options) {
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/palpation_bench.json")
+                              : std::filesystem::path(options.station));
+  station::judgeAge(station, runtime::utcNow());
+  if (!station.sample)
+    throw UsageError("has no \"sample\"", station.file.name(),
+                     "Say where it lies: sample/X_WP, the middle of its top, and "
+                     "sample/tip_radius_mm");
+  if (!station.force_sensor)
+    throw UsageError("has no \"force_sensor\"", station.file.name(),
+                     "What is added rests on what is felt of the sample: that must be measured. "
+                     "Describe the sensor");
+  if (station.device.driver == DeviceDriver::bench &&
+      station.force_sensor->driver != ForceSensorDriver::bench)
+    station.file.refuse("force_sensor/driver",
+                        "is a real sensor, but the device is simulated and touches simulated "
+                        "silicone; it must be \"virtual\", too");
+  return station;
 }
 
 SessionDevices::SessionDevices(const SessionOptions& options, const station::Station& station,

@@ -19,6 +19,10 @@
 
 namespace palpa::session {
 
+/// The station of a task that is felt with one tool on a sample: the palpation bench where none is
+/// named. Throws UsageError where it has no sample or nothing that measures the force on it.
+station::Station feelingStation(const SessionOptions& options);
+
 /// The loop under one tool with a force sensor on that silicone: frames, limits, the library's
 /// laws, its texture within the limiter. On the bench without a dead-man's button: nobody could
 /// hold it. Throws UsageError for a texture that this loop cannot give.

@@ -12,6 +12,7 @@
 #include "apps/assess/dose_counter.h"
 #include "apps/report/page/style.h"
 #include "apps/runtime/clock.h"
+#include "apps/station/taken_away.h"
 #include "apps/twin/tracking_model.h"
 
 namespace palpa::session {
@@ -92,6 +93,23 @@ std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
 
 report::Fact surfaceFact(const station::LumpLibrary& library) {
   return {"Softness and friction of the sample", library.of_surface, ""};
+}
+
+std::vector<report::Fact> steadyingFacts(const SessionOptions& options,
+                                         const station::NamedPlan& plan,
+                                         const station::Station& station) {
+  std::vector<report::Fact> facts;
+  if (!options.augment) return facts;
+  for (const station::SteadyingFigures& one : station::steadyingsOf(plan, station, options.rate_Hz))
+    facts.push_back({"Taken off the hand: " + one.name, station::inWords(one), ""});
+  return facts;
+}
+
+void sayTaken(const SessionOptions& options, const std::vector<report::Fact>& facts) {
+  if (options.quiet) return;
+  for (const report::Fact& fact : facts)
+    std::printf("%s: %s\n", fact.name.c_str(), fact.value.c_str());
+  std::fflush(stdout);
 }
 
 std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy) {

@@ -28,6 +28,12 @@ std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy);
 report::Fact surfaceFact(const station::LumpLibrary& library);
 /// Each of its lumps: size, depth, hardness, how much it changes the force.
 std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library);
+/// What the device takes away of what is real, and what of it is passive; said on standard output
+/// before the session starts, too (`sayTaken`).
+std::vector<report::Fact> steadyingFacts(const SessionOptions& options,
+                                         const station::NamedPlan& plan,
+                                         const station::Station& station);
+void sayTaken(const SessionOptions& options, const std::vector<report::Fact>& facts);
 /// Lateness, trips with their causes, what drivers and camera had to say, records lost.
 std::vector<report::Fact> runNotes(const SessionRun& run);
 

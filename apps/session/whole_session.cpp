@@ -73,6 +73,7 @@ SessionLeft holdNeedleSession(SessionOptions options) {
   NeedleWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
+  sayTaken(options, steadyingFacts(options, world.task.augmentations, world.station));
   return heldIn(options, [&](const std::filesystem::path& folder) {
     if (options.who == OperatorKind::person && options.demonstration)
       showDemonstration(options, world, folder);
@@ -90,6 +91,7 @@ SessionLeft holdPalpation(SessionOptions options) {
   settleOperator(options, world.station);
   world.checkFingers(options);
   checkTrainee(options);
+  sayTaken(options, world.takenFacts(options));
   return heldIn(options, [&](const std::filesystem::path& folder) {
     const PalpationRun run = runPalpation(options, world, folder);
     writePalpationOutcome(options, world, run, folder);

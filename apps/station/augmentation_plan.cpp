@@ -6,6 +6,7 @@
 
 #include "anatomy/base/error.h"
 #include "apps/station/station_file.h"
+#include "apps/station/taken_away.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::station {
@@ -158,19 +159,33 @@ void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
       return;
     case AugmentationKind::fixture:
       a->amplitude = file.number("stiffness_N_per_m", 0, 1e4);
+      if (file.has("reach_mm")) a->reach = kMilli * file.number("reach_mm", 0.01, 100);
+      a->fades = file.flag("fades", false);
+      return;
+    case AugmentationKind::keep_out:
+      a->amplitude = file.number("stiffness_N_per_m", 0, 1e4);
+      a->fades = file.flag("fades", false);
+      return;
+    case AugmentationKind::steadying:
+      a->amplitude = file.number("damping_Ns_per_m", 0, 100);
+      a->from_Hz = file.number("from_Hz", 1, 50);
+      a->to_Hz = file.number("to_Hz", 1, 100);
+      if (a->to_Hz <= a->from_Hz) file.refuse("to_Hz", "must be more than from_Hz");
       return;
   }
 }
 
 Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double* reach_U) {
   using Way = Augmentation::Way;
-  static constexpr std::array<std::pair<const char*, AugmentationKind>, 6> kKinds{
+  static constexpr std::array<std::pair<const char*, AugmentationKind>, 8> kKinds{
       {{"pulse", AugmentationKind::pulse},
        {"vibration", AugmentationKind::vibration},
        {"attraction", AugmentationKind::attraction},
        {"exaggeration", AugmentationKind::exaggeration},
        {"fixture", AugmentationKind::fixture},
-       {"relief", AugmentationKind::relief}}};
+       {"relief", AugmentationKind::relief},
+       {"keep_out", AugmentationKind::keep_out},
+       {"steadying", AugmentationKind::steadying}}};
   static constexpr std::array<std::pair<const char*, Way>, 4> kWays{
       {{"up", Way::up},
        {"against_motion", Way::against_motion},
@@ -231,6 +246,10 @@ haptics::AugmentationPlan onDevice(const NamedPlan& named, const Station& statio
   haptics::AugmentationPlan plan = named.plan;
   plan.largest = named.limit_share * station.safety.max_force_N;
   plan.steepest = station.device.capabilities.stable_stiffness;
+  constexpr double kSlowest_Hz = 1000;  // the least that any session runs at
+  for (const SteadyingFigures& one : steadyingsOf(named, station, kSlowest_Hz))
+    for (std::size_t i = 0; i < named.augmentations.size(); ++i)
+      if (named.augmentations[i].name == one.name) plan.each[i].amplitude = one.band.damping;
   for (std::size_t i = 0; i < named.reach_U.size(); ++i) {
     if (named.reach_U[i] <= 0) continue;
     if (unit <= 0)

@@ -55,8 +55,9 @@ struct NamedPart {
 ///   "augmentations": [{"name": "edge", "kind": "pulse", "subtask": "scan", "trigger": "rise",
 ///                      "way": "up", "force_N": 0.8, "width_ms": 10}]
 ///       kind: pulse, vibration (frequency_Hz or wavelength_mm, decay_ms), attraction (reach_mm or
-///       reach_U), exaggeration (times, tau_ms), fixture (stiffness_N_per_m), relief (force_N, at
-///       the highest bumps)
+///       reach_U), exaggeration (times, tau_ms), fixture (stiffness_N_per_m, reach_mm), keep_out
+///       (stiffness_N_per_m), steadying (damping_Ns_per_m, from_Hz, to_Hz), relief (force_N, at
+///       the highest bumps); "fades": true of fixture and keep_out: less as the trainee gets better
 ///       trigger: begin, rise, bump, or an event (skin_punctured, withdrawn, wall_punctured,
 ///       bone_touched, bone_left)
 ///       way (of pulse, vibration, relief): up, against_motion, along_tool, against_tool
@@ -79,7 +80,8 @@ struct NamedPlan {
 NamedPlan readPlan(const JsonFile& task);
 
 /// The plan on a station: never more than its share of the force limit, nothing steeper than the
-/// largest wall that the device holds; lengths in units of a floor become metres by `unit`. Throws
+/// largest wall that the device holds, no steadying stronger than is passive (taken_away.h);
+/// lengths in units of a floor become metres by `unit`. Throws
 /// UsageError where there are some and `unit` is 0.
 haptics::AugmentationPlan onDevice(const NamedPlan& named, const Station& station, double unit = 0);
 

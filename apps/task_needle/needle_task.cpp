@@ -1,6 +1,7 @@
 #include "apps/task_needle/needle_task.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/assess/needle/needle_metrics.h"
@@ -9,6 +10,7 @@ namespace palpa::task_needle {
 
 using runtime::EventKind;
 using training::Outcome;
+using training::Role;
 
 namespace {
 
@@ -26,6 +28,16 @@ std::string scoresJson(const assess::TrialAssessment& a) {
   return scores.dump();
 }
 
+bool fades(const haptics::AugmentationPlan& plan) {
+  return std::any_of(plan.each.begin(), plan.each.begin() + plan.count,
+                     [](const haptics::Augmentation& a) { return a.fades != 0; });
+}
+
+/// Blood from the vein, and neither artery nor lung touched.
+bool isClean(const assess::TrialAssessment& trial) {
+  return trial.values.success && trial.values.col_lung == 0 && trial.values.col_art == 0;
+}
+
 }  // namespace
 
 NeedleTask::NeedleTask(const NeedleTaskSetup& setup, runtime::Bus& bus, TaskChannels& channels,
@@ -36,7 +48,8 @@ NeedleTask::NeedleTask(const NeedleTaskSetup& setup, runtime::Bus& bus, TaskChan
       setup_(setup),
       channels_(channels),
       sampler_(setup.X_AD, setup.X_ET),
-      doses_(setup.augmentations, setup.settings.augmentations.subtaskNames()) {
+      doses_(setup.augmentations, setup.settings.augmentations.subtaskNames()),
+      support_(fades(setup.augmentations)) {
   completed_.reserve(setup_.plan.size());
   // Once, so that a later and longer trial needs no more.
   samples_.reserve(
@@ -73,10 +86,23 @@ runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   question_ = {};
   touched_s_.fill(-kContactPause);
   entered_vein_ = false;
+  support(now_ns);
+  const bool guided = supported_ > 0 && plan().role == Role::scored;
   picture("start", "Before the needle touches the " + setup_.settings.words.of(Organ::skin));
   return {status().trial,        now_ns,
-          plan().seed,           training::nameOf(plan().role),
+          plan().seed,           training::nameOf(guided ? Role::guided : plan().role),
           plan().force_feedback, plan().puncture_force_N};
+}
+
+/// Of a trial of practice with cues that fade: how much of them is felt in it.
+void NeedleTask::support(std::int64_t now_ns) {
+  const bool may = plan().augmented && !training::inAssessment(plan().role);
+  supported_ = may ? support_.in(status().trial) : 0;
+  if (may && fades(setup_.augmentations))
+    report(now_ns, EventKind::phase,
+           supported_ > 0 ? "Guided by " + std::to_string(std::lround(100 * supported_)) +
+                                " % of what leads the needle"
+                          : "Nothing leads the needle in this trial");
 }
 
 assess::TrialAssessment judgedWithoutPath(const assess::TrialFacts& facts, const GoalTrial* goal,
@@ -99,8 +125,8 @@ assess::TrialAssessment judgedWithoutPath(const assess::TrialFacts& facts, const
 trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::string& reason) {
   CompletedTrial trial;
   trial.reason = reason;
-  assess::TrialFacts facts{status().trial,        plan().role, setup_.simulated,
-                           plan().force_feedback, plan().seed, outcome};
+  assess::TrialFacts facts{status().trial,        status().role, setup_.simulated,
+                           plan().force_feedback, plan().seed,   outcome};
   if (setup_.taught_path) {
     trial.assessment = assess::assessTrial(facts, samples_, setup_.patient, setup_.query,
                                            *setup_.taught_path, setup_.settings.rules);
@@ -109,6 +135,8 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
                                          setup_.settings.rules);
   }
   trial.assessment.augmented = plan().augmented;
+  if (plan().augmented && outcome != Outcome::voided && outcome != Outcome::aborted)
+    support_.end(isClean(trial.assessment));
   trial.assessment.doses = doses_.doses();
   shown_.flows = Tissue::air;
   shown_.asked = false;
@@ -245,6 +273,12 @@ void NeedleTask::command(haptics::TickCommands& commands) const {
   commands.puncture_force_N = plan().puncture_force_N;
   commands.wall_scale = plan().wall_scale;
   commands.augmented = plan().augmented;
+  commands.support = supported_;
+  if (plan().augmented) {
+    commands.line_p_D = setup_.fixtures.line_p_D;
+    commands.line_a_D = setup_.fixtures.line_a_D;
+    commands.kept_out = setup_.fixtures.kept_out;
+  }
   commands.asked = shown_.asked;
   commands.subtask = static_cast<std::uint8_t>(shown_.phase);
 }

@@ -10,6 +10,7 @@
 #include "apps/assess/needle/phases.h"
 #include "apps/assess/needle/trial_sampler.h"
 #include "apps/task_needle/task_file.h"
+#include "apps/training/fading_support.h"
 #include "apps/training/trial_words.h"
 #include "apps/trial/trial_status.h"
 #include "apps/trial/trial_task.h"
@@ -36,6 +37,13 @@ struct TrialPlan {
   /// of the walls' median peaks
   std::array<float, kOrganCount> wall_scale = haptics::TickCommands{}.wall_scale;
   int most_passes = 0;  ///< of the needle: the next one ends the trial; 0: no limit
+};
+
+/// What the cues that fade refer to, in the device's frame: the line that leads to the vein, and
+/// what is kept out of. Nothing of it is commanded where such cues are not felt.
+struct NeedleFixtures {
+  Packed3 line_p_D{}, line_a_D{};  ///< m; unit
+  std::array<haptics::KeptOut, haptics::kMostKeptOut> kept_out{};
 };
 
 /// What stays of a trial: its ticks are in the evidence.
@@ -65,6 +73,7 @@ struct NeedleTaskSetup {
   std::vector<TrialPlan> plan;
   std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
   haptics::AugmentationPlan augmentations;  ///< as on this device
+  NeedleFixtures fixtures;
   /// Bits of DeviceReading::buttons that say vein, artery, neither; 0: the device has none for it.
   std::array<std::uint32_t, 3> answers{};
   /// Of a recorded hand: what was said, and when in the session; ns.
@@ -96,6 +105,7 @@ class NeedleTask final : public trial::TrialTask {
   const TrialPlan& plan() const {
     return setup_.plan[static_cast<std::size_t>(status().trial - 1)];
   }
+  void support(std::int64_t now_ns);
 
   NeedleTaskSetup setup_;
   TaskChannels& channels_;
@@ -107,6 +117,8 @@ class NeedleTask final : public trial::TrialTask {
   std::vector<assess::TrialSample> samples_;
   assess::TrialDoses doses_;
   std::vector<CompletedTrial> completed_;
+  training::FadingSupport support_;
+  double supported_ = 0;  ///< share of what fades in this trial
   assess::Syringe syringe_;
   assess::AspirationQuestion question_;
   std::uint32_t buttons_ = 0;                    ///< of the last tick

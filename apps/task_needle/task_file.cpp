@@ -168,6 +168,31 @@ Goal goalIn(const JsonFile& file, const station::NamedPlan& parts) {
   return goal;
 }
 
+/// "keep_out": [{"organ": "lung", "ball_mm": 30, "margin_mm": 3}]
+std::vector<KeepOutOrgan> keepOutIn(const JsonFile& file, const station::NamedPlan& parts) {
+  std::vector<KeepOutOrgan> all;
+  const haptics::AugmentationPlan& plan = parts.plan;
+  const bool wall =
+      std::any_of(plan.each.begin(), plan.each.begin() + plan.count,
+                  [](const auto& a) { return a.kind == haptics::AugmentationKind::keep_out; });
+  if (wall != file.has("keep_out"))
+    file.refuse("keep_out", wall ? "is missing: out of what does the augmentation keep?"
+                                 : "needs an augmentation of this kind beside it");
+  if (!wall) return all;
+  for (const JsonFile& one : file.entries("keep_out")) {
+    const std::string name = one.text("organ");
+    KeepOutOrgan organ{Organ::none, kMm * one.number("ball_mm", 1, 200),
+                       kMm * one.number("margin_mm", 0, 50)};
+    for (int i = 1; i < kOrganCount; ++i)
+      if (name == palpa::name(static_cast<Organ>(i))) organ.organ = static_cast<Organ>(i);
+    if (organ.organ == Organ::none) one.refuse("organ", "is \"" + name + "\", which is none");
+    all.push_back(organ);
+  }
+  if (all.empty() || all.size() > haptics::kMostKeptOut)
+    file.refuse("keep_out", "must name 1 or " + std::to_string(haptics::kMostKeptOut) + " organs");
+  return all;
+}
+
 PuncturedBlock blockIn(const JsonFile& file) {
   const auto mm = [&](const std::string& field, double low, double high) {
     return kMm * file.number("phantom/" + field, low, high);
@@ -206,6 +231,7 @@ TaskSettings readTask(const JsonFile& file, const std::filesystem::path& folder)
   if (file.has("goal")) {
     task.goal = goalIn(file, task.augmentations);
   } else {
+    task.keep_out = keepOutIn(file, task.augmentations);
     task.rules = readRules(file);
     task.rules.errors = readErrors(file);
     task.expert_path = folder / file.text("expert_path");

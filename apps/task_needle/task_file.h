@@ -80,6 +80,13 @@ struct PassLimit {
   int assessed = 0, practice = 0;
 };
 
+/// An organ that a cue keeps the needle out of: a ball that touches it where it is nearest to the
+/// target of the path, and `margin` around it.
+struct KeepOutOrgan {
+  Organ organ = Organ::none;
+  double radius = 0, margin = 0;  ///< m
+};
+
 /// A needle task as its file says it (assets/tasks/*.json). A new site needs a file, not code. It
 /// has an expert path ("expert_path", "scoring") or a goal of its own ("goal").
 struct TaskSettings {
@@ -92,6 +99,7 @@ struct TaskSettings {
   std::string source;  ///< the file's text, for the evidence
   station::Taxonomy taxonomy;
   station::NamedPlan augmentations;     ///< empty: the task has no parts
+  std::vector<KeepOutOrgan> keep_out;   ///< where a cue keeps out of something
   std::optional<Goal> goal;             ///< none: the vein
   std::optional<PuncturedBlock> block;  ///< none: a patient
   TaskWords words;

@@ -5,7 +5,7 @@
 namespace palpa::task_palpation {
 namespace {
 
-constexpr double kWait_s = 2, kLess = 0.34, kMore = 0.17;
+constexpr double kWait_s = 2;
 constexpr int kStripCells = 3;  // 12 mm
 
 /// Of a strip's three columns the middle one, where there is one.
@@ -39,7 +39,7 @@ std::optional<Vec3> Guidance::lead(const assess::CoverageMap& map, double t_s) {
   }
   const double dt = t_s - last_s_;
   last_s_ = t_s;
-  if (t_s - felt_at_s_ < kWait_s / amount_) return std::nullopt;
+  if (t_s - felt_at_s_ < kWait_s / support_.amount()) return std::nullopt;
   std::optional<Vec3> next = nextInStrips(map);
   if (next) shown_s_ += dt;
   return next;
@@ -47,7 +47,7 @@ std::optional<Vec3> Guidance::lead(const assess::CoverageMap& map, double t_s) {
 
 void Guidance::end(bool covered) {
   helping_ = false;
-  if (on_) amount_ = std::clamp(amount_ + (covered ? -kLess : kMore), 0.0, 1.0);
+  support_.end(covered);
 }
 
 }  // namespace palpa::task_palpation

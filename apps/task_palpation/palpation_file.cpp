@@ -132,8 +132,24 @@ Case piecesOf(const JsonFile& file, const std::vector<assess::NormalAnatomy>& no
   return pieces;
 }
 
+/// "real_lump": {"kind": ..., "across_mm": ..., "away_mm": ..., "taken_in": 0.5}
+std::optional<RealLump> realIn(const JsonFile& file, const station::LumpLibrary& library) {
+  if (!file.has("real_lump")) return std::nullopt;
+  RealLump real;
+  real.lump.kind =
+      kindNamed(file, "real_lump/kind", nlohmann::json(file.text("real_lump/kind")), library);
+  real.lump.p_P = {kMm * file.number("real_lump/across_mm", -200, 200),
+                   kMm * file.number("real_lump/away_mm", -200, 200),
+                   -library.kinds[real.lump.kind].depth};
+  real.lump.is = LumpIs::cast;
+  real.taken_in = file.number("real_lump/taken_in", 0, 1);
+  return real;
+}
+
 void requireFew(const JsonFile& file, const PalpationSettings& settings) {
-  if (settings.cases.lumps.size() - 1 + settings.anatomy.size() <= haptics::kMostLumps) return;
+  if (settings.cases.lumps.size() - 1 + settings.anatomy.size() + (settings.real ? 1 : 0) <=
+      haptics::kMostLumps)
+    return;
   file.refuse("cases/lumps", "allows more than " + std::to_string(haptics::kMostLumps) +
                                  " lumps, the points of \"anatomy\" among them");
 }
@@ -190,6 +206,7 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
                     kMm * file.number("cases/apart_mm", 5, 200),
                     kMm * file.number("cases/margin_mm", 0, 200)};
   settings.anatomy = piecesOf(file, settings.scoring.rules.normal, settings.library);
+  settings.real = realIn(file, settings.library);
   settings.clinical_force_N = file.number("pressure/clinical_deep_N", 0, 50);
   settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
   settings.taxonomy = station::taxonomyOf(file);
@@ -238,7 +255,13 @@ bool farFromAll(const Case& others, const Vec3& p_P, double apart) {
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed) {
   RandomStream random(seed, "palpation.case");
   const std::size_t count = countFor(settings.cases.lumps, seed, random.uniform());
-  return placeLumps(settings, count, random);
+  Case drawn = placeLumps(settings, count, random);
+  if (settings.real) {
+    drawn.push_back(settings.real->lump);
+    const double u = RandomStream(seed, "palpation.taken").uniform();
+    if (u < settings.real->taken_in) drawn.back().is = LumpIs::taken;
+  }
+  return drawn;
 }
 
 Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStream& random) {
@@ -260,7 +283,9 @@ Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStre
         rules.kinds.size() - 1)];
     const Vec3 p_P(random.uniform(-x, x), random.uniform(-y, y),
                    -settings.library.kinds[kind].depth);
-    if (farFromAll(drawn, p_P, rules.apart) && farFromAll(settings.anatomy, p_P, rules.apart))
+    const Case real = settings.real ? Case{settings.real->lump} : Case{};
+    if (farFromAll(drawn, p_P, rules.apart) && farFromAll(settings.anatomy, p_P, rules.apart) &&
+        farFromAll(real, p_P, rules.apart))
       drawn.push_back({kind, p_P});
   }
   return drawn;
@@ -269,20 +294,33 @@ Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStre
 std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library) {
   std::vector<assess::CaseLump> lumps;
   for (const LumpInCase& lump : in_case) {
+    if (lump.is == LumpIs::taken) continue;
     const station::LumpKind& kind = library.kinds[lump.kind];
     lumps.push_back({lump.p_P, kind.diameter, kind.hardness, kind.mobility});
   }
   return lumps;
 }
 
-haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy) {
+haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy, double share) {
   haptics::PlacedLumps lumps{};
   std::size_t next = 0;
   for (const Case* some : {&in_case, &anatomy})
     for (const LumpInCase& lump : *some)
-      if (next < lumps.size())
-        lumps[next++] = {pack(lump.p_P), static_cast<std::uint32_t>(lump.kind) + 1, 0};
+      if (next < lumps.size() && lump.is != LumpIs::cast)
+        lumps[next++] = {pack(lump.p_P), static_cast<std::uint32_t>(lump.kind) + 1,
+                         lump.is == LumpIs::taken ? static_cast<float>(share) : 0};
   return lumps;
+}
+
+bool takesAway(const Case& in_case) {
+  return std::any_of(in_case.begin(), in_case.end(),
+                     [](const LumpInCase& lump) { return lump.is == LumpIs::taken; });
+}
+
+Case withoutForce(Case in_case) {
+  for (LumpInCase& lump : in_case)
+    if (lump.is == LumpIs::taken) lump.is = LumpIs::cast;
+  return in_case;
 }
 
 }  // namespace palpa::task_palpation

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +28,24 @@ struct Scoring {
 /// Of a task's text alone, without its lumps. Throws UsageError naming the field.
 Scoring scoringOf(const JsonFile& task);
 
+/// Of a lump in a case: computed; cast in the phantom, and felt; cast in it, and taken away.
+enum class LumpIs : std::uint8_t { computed, cast, taken };
+
 /// A lump at a place: P, m.
 struct LumpInCase {
   std::size_t kind = 0;  ///< of the library, from 0
   Vec3 p_P = Vec3::Zero();
+  LumpIs is = LumpIs::computed;
 };
 using Case = std::vector<LumpInCase>;
+
+/// A lump that lies in the phantom itself: in some cases it is felt, in the others taken away, so
+/// that nobody knows beforehand whether it is there.
+struct RealLump {
+  LumpInCase lump;
+  double taken_in = 0.5;  ///< share of the cases
+  double share = 1;       ///< of it that is taken; less where the device bears no more
+};
 
 /// A palpation task as its file says it (assets/tasks/palpation_*.json). Another phantom, other
 /// lumps, other rules need a file, not code.
@@ -44,6 +58,7 @@ struct PalpationSettings {
   /// Normal anatomy, in pieces, in every case: a library lump at each point of its line (named and
   /// judged by scoring.rules.normal)
   Case anatomy;
+  std::optional<RealLump> real;
   /// That deep palpation takes on a patient; where the device gives less, the screen says "scaled
   /// force". 0: nobody has measured it there
   double clinical_force_N = 0;
@@ -61,8 +76,13 @@ PalpationSettings readPalpation(const std::filesystem::path& file);
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed);
 /// So many lumps, drawn by the rules. Throws Error where they find no room.
 Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStream& random);
+/// Those that are felt.
 std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library);
-/// Together they are no more than haptics::kMostLumps.
-haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy);
+/// What the loop adds, and, `share` of it, what it takes away. Together they are no more than
+/// haptics::kMostLumps.
+haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy, double share = 1);
+bool takesAway(const Case& in_case);
+/// Without force feedback a real lump is felt in every case.
+Case withoutForce(Case in_case);
 
 }  // namespace palpa::task_palpation

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::int64_t kEvery_ns = 10'000'000;
 constexpr double kLongestGap_s = 0.1;  // longer: it was paused
+constexpr const char* kTakenAway = "the real lump is taken away";
 
 }  // namespace
 
@@ -116,22 +117,27 @@ std::string scoreJson(const assess::PalpationAssessment& a) {
       .dump();
 }
 
-std::string caseText(const std::vector<assess::CaseLump>& lumps) {
+std::string caseText(const std::vector<assess::CaseLump>& lumps, bool taken_away) {
   nlohmann::json list = nlohmann::json::array();
   for (const assess::CaseLump& lump : lumps)
     list.push_back({{"p_P_m", pack(lump.p_P)},
                     {"diameter_m", lump.diameter},
                     {"hardness", lump.hardness},
                     {"mobility", lump.mobility}});
+  if (taken_away) list.push_back(kTakenAway);
   return list.dump();
 }
+
+bool takenIn(const std::string& text) { return text.find(kTakenAway) != std::string::npos; }
 
 std::vector<assess::CaseLump> caseOf(const std::string& text) {
   try {
     std::vector<assess::CaseLump> lumps;
     for (const nlohmann::json& lump : parseJson(text))
-      lumps.push_back({unpack(lump.at("p_P_m").get<Packed3>()), lump.at("diameter_m").get<double>(),
-                       lump.at("hardness").get<int>(), lump.at("mobility").get<int>()});
+      if (lump != kTakenAway)
+        lumps.push_back({unpack(lump.at("p_P_m").get<Packed3>()),
+                         lump.at("diameter_m").get<double>(), lump.at("hardness").get<int>(),
+                         lump.at("mobility").get<int>()});
     return lumps;
   } catch (const nlohmann::json::exception& e) {
     throw Error("does not describe lumps (" + whyNoJson(text, e) + ")", "event \"case\"",
@@ -175,7 +181,9 @@ std::string PalpationTask::notReady(const haptics::FlightRecord&) const {
 
 runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   case_ = drawCase(setup_.settings, plan().seed);
-  placed_ = placed(case_, setup_.settings.anatomy);
+  if (!plan().force_feedback) case_ = withoutForce(case_);
+  placed_ = placed(case_, setup_.settings.anatomy,
+                   setup_.settings.real ? setup_.settings.real->share : 1);
   listener_.begin(static_cast<std::uint32_t>(status().trial));
   doses_.begin(static_cast<std::uint32_t>(status().trial));
   for (SensorCheck& sensor : sensors_) sensor.reset();
@@ -186,7 +194,8 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   shown_.levels.clear();
   shown_.marks_P.clear();
   showLumps(nullptr);
-  report(now_ns, EventKind::trial_case, caseText(lumpsOf(case_, setup_.settings.library)));
+  report(now_ns, EventKind::trial_case,
+         caseText(lumpsOf(case_, setup_.settings.library), takesAway(case_)));
   picture("start", "Before anything was felt");
   const bool guided = plan().role == Role::scored && guidance_.helps(status().trial);
   const Role role =
@@ -217,7 +226,8 @@ trial::TrialTask::Conclusion PalpationTask::conclude(Outcome outcome, const std:
                                      plan().seed,
                                      outcome,
                                      seconds > 0 ? guidance_.shown_s() / seconds : 0,
-                                     plan().augmented};
+                                     plan().augmented,
+                                     takesAway(case_)};
   trial.assessment = assess::assessPalpation(
       facts, setup_.settings.scoring.rules, setup_.settings.scoring.standard,
       lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());

@@ -157,8 +157,9 @@ std::vector<std::uint8_t> levelsOf(const assess::CoverageMap& map);
 std::string scoreJson(const assess::PalpationAssessment& assessment);
 
 /// The lumps of a case as its event in the record says them, and read again; the replay's truth.
-/// Throws Error for invalid words.
-std::string caseText(const std::vector<assess::CaseLump>& lumps);
+/// `taken_away`: a real one is not felt. Throws Error for invalid words.
+std::string caseText(const std::vector<assess::CaseLump>& lumps, bool taken_away = false);
 std::vector<assess::CaseLump> caseOf(const std::string& text);
+bool takenIn(const std::string& text);
 
 }  // namespace palpa::task_palpation

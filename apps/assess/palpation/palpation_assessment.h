@@ -20,8 +20,9 @@ struct PalpationFacts {
   bool simulated = false, force_feedback = true;
   std::uint64_t seed = 1;
   training::Outcome outcome = training::Outcome::none;
-  double guided = 0;       ///< share of the time in which something on the screen led the hand
-  bool augmented = false;  ///< the task's augmentations added force
+  double guided = 0;        ///< share of the time in which something on the screen led the hand
+  bool augmented = false;   ///< the task's augmentations added force
+  bool taken_away = false;  ///< a lump that lies in the phantom was taken away
 };
 
 /// Found enough, felt enough: 90 % of lumps, 95 % of the area (MammaCare's standard, as studies of
