@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/bench/contact_study.h"
+#include "apps/bench/taking_study.h"
 #include "apps/bench/texture_study.h"
 #include "apps/bench/timing.h"
 #include "apps/station/assets.h"
@@ -82,12 +83,39 @@ void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
       print("inclusion_position_error_mm", figures.position_mm, "mm", params);
       print("solver_iterations_max", figures.iterations, "1", params);
     }
+    nlohmann::json params = paramsOf(noise);
+    params["mockup"] = phantoms[i].name;
+    const TakenFigures taken = takenFigures(phantoms.front(), phantoms[i], law, noise);
+    print("taken_lump_rel_rms", taken.left, "1", params);
+    print("untaken_lump_rel_rms", taken.there, "1", params);
+    print("taken_stiffness", taken.taken_N_per_m, "N/m", params);
     for (const PlainTouches& touches : plain[1]) {
-      nlohmann::json params = paramsOf(noise);
-      params["mockup"] = phantoms[i].name;
       params["motion"] = touches.motion;
       print("two_tools_rel_rms", lumpFigures({touches}, phantoms[i], law).error, "1", params);
     }
+  }
+}
+
+/// A trembling hand whose 8 to 12 Hz are damped, with every device and each of `hands`: the worst.
+void benchSteadied(const std::vector<twin::HandGrip>& hands) {
+  for (const JudgedDevice& device : judgedDevices()) {
+    SteadiedFigures worst{0, 0, 0, 0};
+    for (const twin::HandGrip& grip : hands) {
+      SteadiedCase one;
+      one.truth = device.truth;
+      one.grip = grip;
+      const SteadiedFigures figures = steadiedFigures(one);
+      worst = {std::max(worst.tremor, figures.tremor), std::max(worst.voluntary, figures.voluntary),
+               std::max(worst.beside, figures.beside),
+               std::max(worst.largest_N, figures.largest_N)};
+    }
+    nlohmann::json params = paramsOf(Noise::kalman);
+    params["device"] = device.name;
+    params["damping_Ns_per_m"] = SteadiedCase{}.band.damping;
+    print("steadied_tremor_rel_rms", worst.tremor, "1", params);
+    print("steadied_voluntary_rel_rms", worst.voluntary, "1", params);
+    print("steadied_beside_rel_rms", worst.beside, "1", params);
+    print("steadied_largest_force", worst.largest_N, "N", params);
   }
 }
 
@@ -157,9 +185,14 @@ void benchHands(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
   const twin::PhantomTwin plain(phantoms.front().table, {});
   const Noise felt = noise == Noise::none ? Noise::low_passed : noise;
   WorstHands worst(felt);
-  for (const HandCase& one : handCases(known, lumpOver(phantoms[1], known, noise),
-                                       phantoms[1].block.lump->centre, hands, felt))
+  const twin::PhantomTwin lumped(phantoms[1].table, {});
+  for (HandCase one : handCases(known, lumpOver(phantoms[1], known, noise),
+                                phantoms[1].block.lump->centre, hands, felt)) {
     worst.add(one.device, one.modulation, handFigures(plain, one));
+    if (one.modulation != "lump") continue;
+    one.lumps[0].taken = 1;
+    worst.add(one.device, "a real lump, taken away", handFigures(lumped, one));
+  }
   double dropped_mm = 0;
   for (const GripCase& one : gripCases(known.contact, hands, felt)) {
     const GripFigures figures = gripFigures(phantoms.front().table, one);
@@ -215,6 +248,7 @@ void benchMaterial(const MaterialBenchOptions& options) {
   const twin::PhantomTwin plain(phantoms.front().table, {});
   print("hc_param_error", lawError(), "1", paramsOf(Noise::none));
   benchTextures(options.quick);
+  benchSteadied(options.quick ? ringingHands() : judgedHands());
   for (const Noise noise : {Noise::none, Noise::low_passed, Noise::kalman}) {
     if (options.quick && noise != Noise::none) break;
     const KnownPhantom known = identifyPhantom(plain, noise);

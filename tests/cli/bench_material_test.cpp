@@ -104,6 +104,8 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_LE(worstTexture(lines, "commanded"), 2);
   EXPECT_GT(worstTexture(lines, "the twin's hand"), 0) << "printed, not judged: drives are slow";
   EXPECT_EQ(worst(lines, "texture_limited"), 0) << "the limiter lets it all through";
+  EXPECT_EQ(valuesOf(lines, "taken_lump_rel_rms").size(), test::counted<std::size_t>(3, 8));
+  EXPECT_LE(worst(lines, "taken_lump_rel_rms"), 0.07);
   expectLumps(lines, 1);
   expectLumps(lines, 2);
   EXPECT_LE(worstOf(lines, "side by side"), 0.09);
@@ -112,7 +114,7 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   ASSERT_EQ(valuesOf(lines, "har_tick_pushed").size(), 1u);
   EXPECT_GE(valuesOf(lines, "har_tick_pushed")[0], 0.9) << "what was timed did something";
   EXPECT_EQ(valuesOf(lines, "hand_still_mm_s").size(),
-            26u);  // two devices; seven modulations under one tool, six between two
+            28u);  // two devices; eight modulations under one tool, six between two
   ASSERT_EQ(valuesOf(lines, "held_object_slid_mm").size(), 1u);
   EXPECT_LE(worst(lines, "held_object_slid_mm"), 6) << "it was held";
   EXPECT_LE(worst(lines, "hand_still_mm_s"), 2);  // nothing swings on and on: that would be tens

@@ -87,6 +87,25 @@ TEST(Palpation, TheLiversEdgeIsNoLump) {
       says(contentOf(here / "novice/report.html"), "What belongs there runs on to both sides"));
 }
 
+/// A lump lies in the silicone in every case; where it is taken away it is no lump, and what is
+/// pushed for it is in the ticks, which run again the same.
+TEST(Palpation, ARealLumpIsTakenAwayInSomeCases) {
+  const Folder here;
+  const Outcome outcome = palpa({"palpation", "--preset", "taken", "--operator", "expert", "--seed",
+                                 "1", "--trials", "4", "--fast", "--no-views", "--out", "taken"},
+                                here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "N/m would be passive"));
+  EXPECT_LT(outcome.out.find("N/m would be passive"), outcome.out.find("report.html"));
+  EXPECT_TRUE(says(contentOf(here / "taken/report.html"), "N/m would be passive"));
+  const Outcome again = palpa({"replay", "taken/session.palpa"}, here.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(says(again.out, ": 0 differ"));
+  const Outcome two =
+      palpa(palpation({"--preset", "taken", "--tools", "2", "--operator", "expert"}), here.path());
+  EXPECT_EQ(two.exit_code, 2);
+}
+
 TEST(Palpation, ReplayJudgesItAgain) {
   const Folder here;
   ASSERT_EQ(palpa(palpation({"--operator", "expert", "--preset", "prostate", "--seed", "3", "--out",

@@ -70,7 +70,9 @@ TEST(TakenLumps, WhatIsLeftIsTheObjectAlone) {
       off += std::pow((block.f_r + now.f_d[0] - block.plain).z(), 2);
       all += std::pow(block.plain.z(), 2);
       lump += std::pow(block.f_T.z(), 2);
-      if (depth > 0.003) EXPECT_NEAR(now.touch[0].x, depth, 2e-4) << across;
+      if (depth > 0.003) {
+        EXPECT_NEAR(now.touch[0].x, depth, 2e-4) << across;
+      }
     }
     EXPECT_GT(std::sqrt(lump / all), 0.05) << across;  // there is something to take
     EXPECT_LT(std::sqrt(off / all), 0.01) << across;

@@ -150,12 +150,13 @@ std::vector<Kind> taskKinds() {
            .elsewhere = {}},
           {.name = "task_palpation",
            .samples = {{"tasks/palpation_breast.json", json::object()},
-                       {"tasks/palpation_abdomen.json", json::object()}},
+                       {"tasks/palpation_abdomen.json", json::object()},
+                       {"tasks/palpation_taken.json", json::object()}},
            .read = [](const fs::path& file) { task_palpation::readPalpation(file); },
            // Parts and lumps are asked for by name; lumps lie inside the area, this inside the
            // phantom; pressures rise; probabilities add up to 1.
            .stricter = {"/lumps.*", "/subtasks.*", "/augmentations/./subtask.*", "/area/.*",
-                        "/phantom/.*", "/cases/.*", "/pressure/.*", "/anatomy/.*"},
+                        "/phantom/.*", "/cases/.*", "/pressure/.*", "/anatomy/.*", "/real_lump/.*"},
            .forgiving = {},
            .elsewhere = {}},
           {.name = "task_search",

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 
 #include "anatomy/base/error.h"
@@ -8,6 +9,7 @@
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_options.h"
+#include "apps/station/assets.h"
 #include "apps/training/trial_words.h"
 #include "tests/session/quick_sessions.h"
 
@@ -68,6 +70,37 @@ TEST(Assessment, NoAidAddsForceToANeedle) {
   EXPECT_GT(aids.commanded, 0);
   EXPECT_FALSE(aids.assessed);
   EXPECT_EQ(aids.roles, std::vector<std::string>{"scored"});
+}
+
+/// Guides, walls and a steadied hand: felt in the first trial of practice, the guides not in the
+/// second, and nothing at all in an assessment.
+TEST(Assessment, FixturesFadeAndAreExactlyZero) {
+  SessionOptions assessed = settled(true);
+  assessed.task = station::assetFile("tasks/paracentesis_guided.json").string();
+  expectNoAid(ofNeedle(assessed, "assessed_guided"));
+  SessionOptions practice = settled(false);
+  practice.task = assessed.task;
+  practice.augment = true;
+  practice.trials = 2;
+  const std::filesystem::path folder = freshPlace("practice_guided");
+  Quick<NeedleWorld> world(practice);
+  ASSERT_EQ(runNeedleSession(practice, world, folder).trials.size(), 2u);
+  const record::SessionReader reader(folder / "session.palpa");
+  std::array<long, 3> led{};  // ticks with a guide or a wall, of each trial
+  bool walled = false;
+  reader.ticks([&](const haptics::FlightRecord& r) {
+    if (r.commands.trial < 1 || r.commands.trial > 2) return;
+    led[r.commands.trial] += (r.augmenting & 3u) != 0;
+    walled |= r.commands.kept_out[0].radius > 0;
+    if (r.commands.trial == 2) {
+      EXPECT_EQ(r.commands.support, 0);
+    }
+  });
+  EXPECT_TRUE(walled);
+  EXPECT_GT(led[1], 0);
+  EXPECT_EQ(led[2], 0);
+  EXPECT_EQ(reader.trials().at(0).header.role, "guided");
+  EXPECT_EQ(reader.trials().at(1).header.role, "scored");
 }
 
 TEST(Assessment, NoAidAddsForceToAPalpation) {

@@ -149,6 +149,18 @@ TEST(AugmentationPlan, EveryKindWithItsFields) {
   const Augmentation line = onlyOne("fixture", {{"stiffness_N_per_m", 300}});
   EXPECT_EQ(line.kind, AugmentationKind::fixture);
   EXPECT_EQ(line.amplitude, 300);
+  EXPECT_EQ(line.reach + line.fades, 0);
+  const Augmentation guide =
+      onlyOne("fixture", {{"stiffness_N_per_m", 150}, {"reach_mm", 15}, {"fades", true}});
+  EXPECT_DOUBLE_EQ(guide.reach * guide.fades, 0.015);
+  const Augmentation wall = onlyOne("keep_out", {{"stiffness_N_per_m", 600}, {"fades", true}});
+  EXPECT_EQ(wall.kind, AugmentationKind::keep_out);
+  EXPECT_EQ(wall.amplitude * wall.fades, 600);
+  const Augmentation steady =
+      onlyOne("steadying", {{"damping_Ns_per_m", 20}, {"from_Hz", 8}, {"to_Hz", 12}});
+  EXPECT_EQ(steady.kind, AugmentationKind::steadying);
+  EXPECT_EQ(steady.amplitude, 20);
+  EXPECT_EQ(steady.to_Hz - steady.from_Hz, 4);
   const Augmentation relief = onlyOne("relief", {{"way", "against_tool"}, {"subtask", "any"}});
   EXPECT_EQ(relief.kind, AugmentationKind::relief);
   EXPECT_EQ(relief.amplitude, 2);
@@ -238,6 +250,10 @@ TEST(AugmentationPlan, WhatIsMissingIsNamed) {
   expectNamedIn("exaggeration", {{"tau_ms", 30}}, "times");
   expectNamedIn("exaggeration", {{"times", 2}}, "tau_ms");
   expectNamedIn("fixture", json::object(), "stiffness_N_per_m");
+  expectNamedIn("keep_out", json::object(), "stiffness_N_per_m");
+  expectNamedIn("steadying", {{"from_Hz", 8}, {"to_Hz", 12}}, "damping_Ns_per_m");
+  expectNamedIn("steadying", {{"damping_Ns_per_m", 9}, {"from_Hz", 8}, {"to_Hz", 8}}, "to_Hz",
+                "more than");
   for (const char* kind : {"vibration", "attraction", "relief"}) {
     json task = planWith(json::array({addedOf(kind, {{"frequency_Hz", 80}, {"reach_mm", 3}})}));
     task["augmentations"][0].erase("force_N");

@@ -143,6 +143,9 @@ TEST(Cases, GoThroughTheRecordAndBack) {
   const std::vector<assess::CaseLump> again = caseOf(caseText(lumps));
   ASSERT_EQ(again.size(), 2u);
   EXPECT_EQ(again[1].p_P, lumps[1].p_P);
+  EXPECT_FALSE(takenIn(caseText(lumps)));
+  EXPECT_TRUE(takenIn(caseText(lumps, true)));
+  EXPECT_EQ(caseOf(caseText(lumps, true)).size(), lumps.size());
   EXPECT_EQ(again[1].mobility, 2);
   EXPECT_TRUE(caseOf(caseText({})).empty());
   EXPECT_THROW(caseOf("[{\"p_P_m\": 3}]"), Error);

@@ -64,6 +64,32 @@ TEST(PalpationFile, TheShippedOnesAreTaken) {
   EXPECT_EQ(Copy().refusal(), "");
 }
 
+TEST(PalpationFile, ARealLumpIsFeltInHalfOfTheCasesAndTakenAwayInTheOthers) {
+  const PalpationSettings settings = readPalpation(kAssets / "tasks/palpation_taken.json");
+  ASSERT_TRUE(settings.real);
+  int taken = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const Case in_case = drawCase(settings, seed);
+    const std::size_t felt = lumpsOf(in_case, settings.library).size();
+    const haptics::PlacedLumps lumps = placed(in_case, settings.anatomy, 0.8);
+    const auto share = [](const haptics::PlacedLump& lump) { return lump.taken; };
+    const bool away = takesAway(in_case);
+    taken += away;
+    EXPECT_EQ(felt, in_case.size() - (away ? 1 : 0));
+    EXPECT_EQ(std::count_if(lumps.begin(), lumps.end(),
+                            [&](const auto& lump) { return share(lump) == 0.8F; }),
+              away ? 1 : 0)
+        << "where it is felt nothing is added for it";
+    EXPECT_FALSE(takesAway(withoutForce(in_case)));
+    EXPECT_EQ(lumpsOf(withoutForce(in_case), settings.library).size(), in_case.size());
+    for (const LumpInCase& lump : in_case)
+      if (lump.is == LumpIs::computed) {
+        EXPECT_GE((lump.p_P - settings.real->lump.p_P).head<2>().norm(), 0.026 - 1e-12);
+      }
+  }
+  EXPECT_NEAR(taken / 400.0, 0.5, 0.1);
+}
+
 TEST(PalpationFile, NormalAnatomyIsInEveryCaseAndLumpsKeepAwayFromIt) {
   const PalpationSettings abdomen = readPalpation(kAssets / "tasks/palpation_abdomen.json");
   ASSERT_EQ(abdomen.scoring.rules.normal.size(), 1u);
