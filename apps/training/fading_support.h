@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace palpa::training {
 
 /// Help that fades with the trainee's skill: all of it at first, less after each good trial, a
@@ -10,13 +12,17 @@ namespace palpa::training {
 class FadingSupport {
  public:
   /// `start`: g at first, 0 to 1.
-  explicit FadingSupport(bool on, double start = 1);
+  explicit FadingSupport(bool on, double start = 1)
+      : on_(on), amount_(on ? std::clamp(start, 0.0, 1.0) : 0) {}
 
   /// Trials from 1: the odd ones are helped.
   bool helps(int trial) const { return on_ && trial % 2 == 1 && amount_ > 0; }
   double amount() const { return amount_; }                          ///< g
   double in(int trial) const { return helps(trial) ? amount_ : 0; }  ///< of this trial
-  void end(bool good);
+  void end(bool good) {
+    constexpr double kLess = 0.34, kMore = 0.17;
+    if (on_) amount_ = std::clamp(amount_ + (good ? -kLess : kMore), 0.0, 1.0);
+  }
 
  private:
   bool on_;

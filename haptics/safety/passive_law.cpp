@@ -30,7 +30,7 @@ double largestOver(double period, Needed needed) noexcept {
 /// C(z) / c at w: s becomes 2/T (z - 1)/(z + 1).
 Complex bandAt(const DampedBand& band, double omega, double period) noexcept {
   const Complex z = turn(omega * period);
-  if (std::abs(z + 1.0) < 1e-12) return 0;  // no more than half the rate gets through
+  if (std::norm(z + 1.0) < 1e-24) return 0;  // no more than half the rate gets through
   const Complex s = 2 / period * (z - 1.0) / (z + 1.0);
   const double w = band.omega();
   return band.ratio() * w * s / (s * s + band.ratio() * w * s + w * w);

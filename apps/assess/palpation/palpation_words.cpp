@@ -69,7 +69,7 @@ std::string palpationSummary(const PalpationFacts& facts, const PalpationScore& 
       none ? withoutLumpsWords(score.false_alarms)
            : lumpsFoundWords(score) + ", " + falseAlarmWords(score.false_alarms);
   return found + "; " + percentWords(score.coverage[0]) + " of the area was felt" +
-         endWords(facts.outcome) + ".";
+         (facts.taken_away ? "; the real lump was taken away" : "") + endWords(facts.outcome) + ".";
 }
 
 const char* wordsOf(Shortfall below) {
