@@ -7,6 +7,7 @@
 #include <string>
 
 #include "anatomy/base/random.h"
+#include "apps/twin/fingers.h"
 #include "apps/twin/hand_motion.h"
 #include "apps/twin/hand_senses.h"
 
@@ -308,19 +309,6 @@ Hand::Action PalpatingMind::act(std::size_t number, const Hand::Senses& senses, 
   return action;
 }
 
-class PalpatingFinger final : public Hand {
- public:
-  PalpatingFinger(std::shared_ptr<PalpatingMind> mind, const HandGrip& grip, std::size_t number)
-      : mind_(std::move(mind)), grip_(grip), number_(number) {}
-  Action act(const Senses& senses, double dt) override { return mind_->act(number_, senses, dt); }
-  const HandGrip& grip() const override { return grip_; }
-
- private:
-  std::shared_ptr<PalpatingMind> mind_;
-  HandGrip grip_;
-  std::size_t number_;
-};
-
 }  // namespace
 
 std::vector<std::unique_ptr<Hand>> palpatingFingers(const PalpatingSkill& skill,
@@ -328,10 +316,7 @@ std::vector<std::unique_ptr<Hand>> palpatingFingers(const PalpatingSkill& skill,
                                                     int fingers, std::uint64_t seed) {
   const auto count = static_cast<std::size_t>(fingers);
   const auto mind = std::make_shared<PalpatingMind>(skill, phantom, X_ET, count, seed);
-  std::vector<std::unique_ptr<Hand>> all;
-  for (std::size_t i = 0; i < count; ++i)
-    all.push_back(std::make_unique<PalpatingFinger>(mind, skill.grip, i));
-  return all;
+  return fingersOf(mind, skill.grip, count);
 }
 
 }  // namespace palpa::twin

@@ -6,6 +6,7 @@
 
 #include "anatomy/base/random.h"
 #include "anatomy/geometry/pose.h"
+#include "apps/twin/fingers.h"
 #include "apps/twin/hand_motion.h"
 #include "apps/twin/hand_senses.h"
 
@@ -214,29 +215,12 @@ class SqueezingMind {
   Hand::Word word_;
 };
 
-namespace {
-
-class SqueezingFinger final : public Hand {
- public:
-  SqueezingFinger(std::shared_ptr<SqueezingMind> mind, const HandGrip& grip, std::size_t finger)
-      : mind_(std::move(mind)), grip_(grip), finger_(finger) {}
-  Action act(const Senses& senses, double dt) override { return mind_->act(finger_, senses, dt); }
-  const HandGrip& grip() const override { return grip_; }
-
- private:
-  std::shared_ptr<SqueezingMind> mind_;
-  HandGrip grip_;
-  std::size_t finger_;
-};
-
-}  // namespace
-
 std::array<std::unique_ptr<Hand>, 2> squeezingHands(const SqueezingSkill& skill,
                                                     const VisibleObject& object, const Pose& X_ET,
                                                     std::uint64_t seed) {
   const auto mind = std::make_shared<SqueezingMind>(skill, object, X_ET, seed);
-  return {std::make_unique<SqueezingFinger>(mind, skill.grip, 0),
-          std::make_unique<SqueezingFinger>(mind, skill.grip, 1)};
+  auto fingers = fingersOf(mind, skill.grip, 2);
+  return {std::move(fingers[0]), std::move(fingers[1])};
 }
 
 }  // namespace palpa::twin

@@ -23,9 +23,9 @@ void learnBegin(const SqueezeModulation& law, double apart, double F,
   }
   const double x = depthOf(law.real, F, 0), rise = std::max(stiffnessOf(law.real, x, 0), 1.0),
                by_force = kForceDoubt / rise, by_law = kLawDoubt * x,
-               weight = 1 / (by_force * by_force + by_law * by_law);
-  state.weight += weight;
-  state.d0 += (apart + 2 * (law.x0 + x) - state.d0) * weight / state.weight;
+               precision = 1 / (by_force * by_force + by_law * by_law);
+  state.precision += precision;
+  state.d0 += (apart + 2 * (law.x0 + x) - state.d0) * precision / state.precision;
 }
 
 }  // namespace

@@ -110,8 +110,8 @@ struct SqueezeModulation {
 };
 
 struct SqueezeState {
-  double d0 = 0;      ///< m between the tips where both begin to touch; 0: they do not
-  double weight = 0;  ///< 1/m^2, of what d0 is told by
+  double d0 = 0;         ///< m between the tips where both begin to touch; 0: they do not
+  double precision = 0;  ///< 1/m^2, inverse variance of d0: the sum over what it is told by
 };
 static_assert(std::is_trivially_copyable_v<SqueezeModulation> &&
               std::is_trivially_copyable_v<SqueezeState>);
