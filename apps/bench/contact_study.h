@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "apps/bench/phantom_recording.h"
 #include "apps/bench/timing.h"
 #include "apps/twin/device_twin.h"
+#include "apps/twin/phantom/opposed_phantom.h"
 #include "apps/twin/phantom/phantom_file.h"
 #include "calibration/touch/contact_laws.h"
 #include "haptics/materials/force_laws.h"
@@ -91,6 +93,7 @@ struct PlainTouches {
   int tools = 1;
   const char* motion = "any";
   std::vector<std::array<PhantomTick, 2>> ticks;  ///< the second of one tool is nowhere
+  bool opposed = false;                           ///< the second presses from below
 };
 /// With one tool, or with two side by side that press together, in turn, and stroke.
 std::vector<PlainTouches> touchPlain(const twin::Phantom& plain, int tools, Noise noise);
@@ -110,6 +113,31 @@ struct LumpFigures {
 };
 LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phantom& lumped,
                         const haptics::TouchAugmentation& law);
+/// The same by whatever says what the tools would truly feel at these places, tick after tick;
+/// asked for anew for each motion. `p_T0`: where its lump rests.
+using TouchJudge = std::function<std::array<twin::PhantomTouch, 2>(const std::array<Vec3, 2>&)>;
+LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const Vec3& p_T0,
+                        const haptics::TouchAugmentation& law,
+                        const std::function<TouchJudge(const PlainTouches&)>& judges);
+
+/// What is known of a slab in a frame after its identification: pinched between two opposite tools,
+/// and stroked; and how far it gives way as a whole under one tool alone,
+///     s = x_alone(f) - x_pinched(f)
+struct KnownSlab {
+  KnownPhantom pinched;
+  calibration::SoftContact alone;
+  double givesWay(double f) const;  ///< m
+};
+KnownSlab identifySlab(const twin::OpposedTable& plain, Noise noise);
+/// Fresh motions of two opposite tools: pinching, pressing in turn, stroking while they pinch.
+std::vector<PlainTouches> pinchPlain(const twin::OpposedTable& plain, Noise noise);
+/// A lump as it was identified in a slab that has it: pinched right above and below, and pressed
+/// and stroked by one tool alone, in a frame that moves with the slab.
+haptics::TouchAugmentation lumpInSlab(const twin::OpposedPhantom& lumped, const KnownSlab& known,
+                                      Noise noise);
+LumpFigures opposedFigures(const std::vector<PlainTouches>& plain,
+                           const twin::OpposedPhantom& lumped,
+                           const haptics::TouchAugmentation& law);
 
 /// What one tick of all of it costs with two devices on the plain phantom: sensed forces to
 /// commands, another stiffness, another friction, two lumps; the readings of the stroke of two

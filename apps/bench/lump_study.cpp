@@ -67,26 +67,22 @@ std::vector<std::pair<const char*, LedPair>> twoTools(double apart) {
   return {{"side by side", together}, {"rolled", in_turn}, {"stroked", stroke}};
 }
 
-/// The led tip is the lowest point of an upright tool.
-haptics::ToolTouch toolOf(const PhantomTick& tick, const haptics::TouchAugmentation& law) {
-  return {true, tick.tip + law.tip_radius * Vec3::UnitZ(), tick.f_r};
+/// The led tip is the lowest point of an upright tool; from below the highest.
+haptics::ToolTouch toolOf(const PhantomTick& tick, const haptics::TouchAugmentation& law,
+                          bool from_below = false) {
+  const double up = from_below ? -law.tip_radius : law.tip_radius;
+  return {true, tick.tip + up * Vec3::UnitZ(), tick.f_r};
 }
 
 /// What the tools would feel on a phantom.
-class Judge {
- public:
-  Judge(const twin::Phantom& phantom, int tools)
-      : tools_(tools), one_(phantom.table, {}), both_(phantom.table, phantom.both, {}) {}
-  std::array<twin::PhantomTouch, 2> step(const std::array<PhantomTick, 2>& ticks) {
-    if (tools_ == 1) return {one_.step(ticks[0].true_tip, kPhantomTick), {}};
-    return both_.step({ticks[0].true_tip, ticks[1].true_tip}, kPhantomTick);
-  }
-
- private:
-  int tools_;
-  twin::PhantomTwin one_;
-  twin::PhantomPairTwin both_;
-};
+TouchJudge judgeOf(const twin::Phantom& phantom, int tools) {
+  if (tools == 1)
+    return [one = twin::PhantomTwin(phantom.table, {})](const std::array<Vec3, 2>& tips) mutable {
+      return std::array<twin::PhantomTouch, 2>{one.step(tips[0], kPhantomTick), {}};
+    };
+  return [both = twin::PhantomPairTwin(phantom.table, phantom.both, {})](
+             const std::array<Vec3, 2>& tips) mutable { return both.step(tips, kPhantomTick); };
+}
 
 }  // namespace
 
@@ -119,22 +115,23 @@ haptics::TouchAugmentation lumpOver(const twin::Phantom& lumped, const KnownPhan
   return law;
 }
 
-LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phantom& lumped,
-                        const haptics::TouchAugmentation& law) {
+LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const Vec3& p_T0,
+                        const haptics::TouchAugmentation& law,
+                        const std::function<TouchJudge(const PlainTouches&)>& judges) {
   LumpFigures figures;
   RelativeRms error, unrendered;
+  const haptics::PlacedLumps lumps{{{pack(p_T0), 1}}};
   for (const PlainTouches& touches : plain) {
-    Judge judge(lumped, touches.tools);
+    const TouchJudge judge = judges(touches);
     haptics::TouchAugmentationState state;
-    const haptics::PlacedLumps lumps{{{pack(lumped.block.lump->centre), 1}}};
     for (const std::array<PhantomTick, 2>& ticks : touches.ticks) {
       const std::array<haptics::ToolTouch, 2> tools{
           {toolOf(ticks[0], law),
-           touches.tools == 2 ? toolOf(ticks[1], law) : haptics::ToolTouch{}}};
+           touches.tools == 2 ? toolOf(ticks[1], law, touches.opposed) : haptics::ToolTouch{}}};
       const haptics::AugmentedTouch now =
           haptics::augmentTouch(law, lumps, tools, kPhantomTick, &state);
       figures.iterations = std::max(figures.iterations, now.iterations);
-      const std::array<twin::PhantomTouch, 2> truth = judge.step(ticks);
+      const std::array<twin::PhantomTouch, 2> truth = judge({ticks[0].true_tip, ticks[1].true_tip});
       for (std::size_t t = 0; t < 2; ++t) {
         if (!truth[t].contact) continue;
         error.add(ticks[t].truth.f + now.f_d[t] - truth[t].f, truth[t].f);
@@ -147,6 +144,12 @@ LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phan
   figures.error = error.value();
   figures.unrendered = unrendered.value();
   return figures;
+}
+
+LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phantom& lumped,
+                        const haptics::TouchAugmentation& law) {
+  return lumpFigures(plain, lumped.block.lump->centre, law,
+                     [&](const PlainTouches& touches) { return judgeOf(lumped, touches.tools); });
 }
 
 namespace {

@@ -119,6 +119,23 @@ void benchSteadied(const std::vector<twin::HandGrip>& hands) {
   }
 }
 
+/// A slab between two tools that press from opposite sides.
+void benchOpposed(const std::vector<twin::OpposedPhantom>& slabs, Noise noise) {
+  const KnownSlab known = identifySlab(slabs.front().table, noise);
+  const std::vector<PlainTouches> plain = pinchPlain(slabs.front().table, noise);
+  for (std::size_t i = 1; i < slabs.size(); ++i) {
+    const haptics::TouchAugmentation law = lumpInSlab(slabs[i], known, noise);
+    for (const PlainTouches& touches : plain) {
+      nlohmann::json params = paramsOf(noise);
+      params["mockup"] = "slab, " + slabs[i].name;
+      params["motion"] = touches.motion;
+      const LumpFigures figures = opposedFigures({touches}, slabs[i], law);
+      print("two_tools_rel_rms", figures.error, "1", params);
+      print("two_tools_none_rel_rms", figures.unrendered, "1", params);
+    }
+  }
+}
+
 /// Every artery of the shipped task, on it and beside it, with the hand of the middle of the
 /// published range. Where there was no noise they are felt through the low-pass, for a hand always
 /// feels through something.
@@ -245,6 +262,9 @@ void benchMaterial(const MaterialBenchOptions& options) {
   const std::vector<twin::Phantom> phantoms =
       twin::readSolved(station::assetFile("phantoms/mockups.json"),
                        station::assetFile("phantoms/mockups.tables.json"));
+  const std::vector<twin::OpposedPhantom> slabs =
+      twin::readSolvedOpposed(station::assetFile("phantoms/opposed.json"),
+                              station::assetFile("phantoms/opposed.tables.json"));
   const twin::PhantomTwin plain(phantoms.front().table, {});
   print("hc_param_error", lawError(), "1", paramsOf(Noise::none));
   benchTextures(options.quick);
@@ -258,6 +278,7 @@ void benchMaterial(const MaterialBenchOptions& options) {
     if (noise != Noise::low_passed)
       benchHands(phantoms, known, options.quick ? ringingHands() : judgedHands(), noise);
     benchLumps(phantoms, known, noise, options.quick ? 3 : phantoms.size());
+    benchOpposed(slabs, noise);
   }
 }
 

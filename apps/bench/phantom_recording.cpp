@@ -1,5 +1,6 @@
 #include "apps/bench/phantom_recording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -113,6 +114,41 @@ std::vector<std::array<PhantomTick, 2>> recordTouches(twin::PhantomPairTwin phan
     const std::array<Vec3, 2> at = tips.at(static_cast<double>(i) * kPhantomTick);
     const std::array<twin::PhantomTouch, 2> truth = phantom.step(at, kPhantomTick);
     ticks.push_back({recorders[0].record(at[0], truth[0]), recorders[1].record(at[1], truth[1])});
+  }
+  return ticks;
+}
+
+namespace {
+
+Vec3 turnedOver(const Vec3& v) { return {v.x(), v.y(), -v.z()}; }
+
+twin::PhantomTouch turnedOver(twin::PhantomTouch touch) {
+  for (Vec3* const v : {&touch.f, &touch.n, &touch.lump}) *v = turnedOver(*v);
+  return touch;
+}
+
+}  // namespace
+
+std::vector<std::array<PhantomTick, 2>> recordOpposed(twin::OpposedPhantomTwin phantom,
+                                                      const std::array<twin::LedTip, 2>& tips,
+                                                      Noise noise, std::uint64_t seed) {
+  std::array<TouchRecorder, 2> recorders{TouchRecorder(noise, seed),
+                                         TouchRecorder(noise, seed + 1'000'000)};
+  const double thickness = phantom.thickness(),
+               duration = std::max(tips[0].duration(), tips[1].duration());
+  std::vector<std::array<PhantomTick, 2>> ticks;
+  for (std::size_t i = 0; i < ticksOf(duration); ++i) {
+    const double t = static_cast<double>(i) * kPhantomTick;
+    const std::array<Vec3, 2> led{tips[0].at(t), tips[1].at(t)};
+    const std::array<twin::PhantomTouch, 2> truth =
+        phantom.step({led[0], twin::mirroredInSlab(led[1], thickness)}, kPhantomTick);
+    PhantomTick below = recorders[1].record(led[1], turnedOver(truth[1]));
+    below.tip = twin::mirroredInSlab(below.tip, thickness);
+    below.true_tip = twin::mirroredInSlab(below.true_tip, thickness);
+    below.dp = turnedOver(below.dp);
+    below.f_r = turnedOver(below.f_r);
+    below.truth = truth[1];
+    ticks.push_back({recorders[0].record(led[0], truth[0]), below});
   }
   return ticks;
 }

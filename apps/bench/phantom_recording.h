@@ -8,6 +8,7 @@
 
 #include "apps/twin/device_twin.h"
 #include "apps/twin/hand_motion.h"
+#include "apps/twin/phantom/opposed_phantom.h"
 #include "apps/twin/phantom/phantom_twin.h"
 #include "haptics/sensors/reaction_filter.h"
 #include "haptics/sensors/wrench_filter.h"
@@ -87,5 +88,10 @@ std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const twin::LedT
 std::vector<std::array<PhantomTick, 2>> recordTouches(twin::PhantomPairTwin phantom,
                                                       const LedPair& tips, Noise noise,
                                                       std::uint64_t seed);
+/// Of a slab between two tools: both tips are led as if from above. The second's is mirrored about
+/// the slab's middle plane, with all that its sensor feels but is recorded as it is, in P.
+std::vector<std::array<PhantomTick, 2>> recordOpposed(twin::OpposedPhantomTwin phantom,
+                                                      const std::array<twin::LedTip, 2>& tips,
+                                                      Noise noise, std::uint64_t seed);
 
 }  // namespace palpa::bench

@@ -59,8 +59,11 @@ void expectLumps(const Lines& lines, int contacts) {
   EXPECT_LE(worst(lines, "solver_iterations_max"), 24);
 }
 
+constexpr std::size_t kSlabs = 3;
+
 /// Of every mock-up under two tools.
-double worstOf(const Lines& lines, const std::string& motion) {
+double worstOf(const Lines& lines, const std::string& motion,
+               std::size_t mockups = test::counted<std::size_t>(3, 8)) {
   double most = 0;
   std::size_t count = 0;
   for (const auto& line : lines) {
@@ -68,7 +71,7 @@ double worstOf(const Lines& lines, const std::string& motion) {
     most = std::max(most, line["value"].get<double>());
     ++count;
   }
-  EXPECT_EQ(count, test::counted<std::size_t>(3, 8)) << motion;
+  EXPECT_EQ(count, mockups) << motion;
   return most;
 }
 
@@ -110,6 +113,9 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   expectLumps(lines, 2);
   EXPECT_LE(worstOf(lines, "side by side"), 0.09);
   EXPECT_LE(worstOf(lines, "rolled"), 0.12);
+  for (const char* motion : {"opposed", "opposed in turn", "opposed, stroked"})
+    EXPECT_LE(worstOf(lines, motion, kSlabs), 0.12) << motion;
+  for (const double without : valuesOf(lines, "two_tools_none_rel_rms")) EXPECT_GE(without, 0.1);
   EXPECT_EQ(valuesOf(lines, "har_tick_hot_median").size(), 1u);
   ASSERT_EQ(valuesOf(lines, "har_tick_pushed").size(), 1u);
   EXPECT_GE(valuesOf(lines, "har_tick_pushed")[0], 0.9) << "what was timed did something";
@@ -135,6 +141,8 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   expectLumps(cleared, 2);
   for (const char* motion : {"side by side", "rolled", "stroked"})
     EXPECT_LE(worstOf(cleared, motion), 0.15) << motion;
+  for (const char* motion : {"opposed", "opposed in turn", "opposed, stroked"})
+    EXPECT_LE(worstOf(cleared, motion, kSlabs), 0.15) << motion;
   EXPECT_EQ(valuesOf(cleared, "hand_still_mm_s").size(), 26u);
   EXPECT_LE(worst(cleared, "hand_still_mm_s"), 2);
   EXPECT_LE(worst(cleared, "hand_gained_mJ"), 0.1);

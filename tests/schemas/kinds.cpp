@@ -25,6 +25,7 @@
 #include "apps/twin/feeling_hands.h"
 #include "apps/twin/lump_search.h"
 #include "apps/twin/operator.h"
+#include "apps/twin/phantom/opposed_phantom.h"
 #include "apps/twin/phantom/phantom_file.h"
 #include "apps/twin/phantom/rough_surface.h"
 #include "apps/twin/tracking_model.h"
@@ -246,6 +247,23 @@ std::vector<Kind> materialKinds() {
                },
            // Of the phantoms as they are, with as many cells as these ask for.
            .stricter = {"/made_of.*", "/tables.*", "/pairs.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "opposed_phantoms",
+           .samples = {{"phantoms/opposed.json", json::object()}},
+           .read = [](const fs::path& file) { twin::readOpposed(file); },
+           // The tools stay off the frame and leave something between them; so do the lumps.
+           .stricter = {"/tool_radius_mm.*", "/block/.*", "/table/.*",
+                        "/phantoms/./lump/diameter_mm.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "opposed_tables",
+           .samples = {{"phantoms/opposed.tables.json", json::object()}},
+           .read =
+               [](const fs::path& file) {
+                 twin::readSolvedOpposed(file.parent_path() / "opposed.json", file);
+               },
+           .stricter = {"/made_of.*", "/tables.*", "/under.*"},
            .forgiving = {},
            .elsewhere = {}}};
 }

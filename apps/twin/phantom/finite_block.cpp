@@ -39,6 +39,7 @@ double shareInLump(const SoftBlock& block, const Brick::IntegrationPoint& point,
 struct FiniteBlock::Model {
   BlockMesh mesh;
   double tool_radius, cover;
+  bool framed = false;
   std::vector<Brick> bricks;
   std::vector<double> bulk;
   std::vector<int> unknown;       // of a coordinate of a node; -1: fixed
@@ -47,6 +48,19 @@ struct FiniteBlock::Model {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
   bool factored = false;
   int count = 0;
+
+  bool fromBelow(std::size_t tool) const { return framed && tool == 1; }
+
+  /// How far up the lower face has moved at (x, 0), m.
+  double under(double x) const {
+    for (const std::array<int, 4>& face : mesh.bottom) {
+      const Vec3 &from = mesh.nodes[face[0]], &to = mesh.nodes[face[1]];
+      if (from.y() != 0 || x < from.x() || x > to.x()) continue;
+      const double share = (x - from.x()) / (to.x() - from.x());
+      return (1 - share) * u[3 * face[0] + 2] + share * u[3 * face[1] + 2];
+    }
+    return 0;
+  }
 
   Vec24 of(const std::array<int, 8>& brick) const {
     Vec24 local;
@@ -103,8 +117,8 @@ struct FiniteBlock::Model {
 
   void touch(const Vec3& tip, std::size_t t, BlockState* state,
              std::vector<Eigen::Triplet<double>>* tangent) const {
-    const RoundTip round{tip + Vec3(0, 0, tool_radius), tool_radius};
-    for (const std::array<int, 4>& face : mesh.top) {
+    const RoundTip round{tip + Vec3(0, 0, fromBelow(t) ? -tool_radius : tool_radius), tool_radius};
+    for (const std::array<int, 4>& face : fromBelow(t) ? mesh.bottom : mesh.top) {
       std::array<Vec3, 4> before, now;
       for (int a = 0; a < 4; ++a) {
         before[a] = mesh.nodes[face[a]];
@@ -191,6 +205,7 @@ BlockResponse FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
         answer.lump += lump_share[static_cast<Eigen::Index>(a)] *
                        u.segment<3>(3 * static_cast<Eigen::Index>(a));
       answer.lump.y() = 0;
+      answer.under = under(at.front().x());
       return answer;
     }
     const Eigen::VectorXd step = newtonStep(std::move(tangent), here.gradient);
@@ -215,6 +230,7 @@ FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool
   Model& m = *model_;
   m.mesh = meshOf(block, tool_x, tool_radius, fineness);
   m.tool_radius = tool_radius;
+  m.framed = block.framed;
   m.cover = kTipStiffness * 3 * block.shear / fineness.finest;
   m.u = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(m.mesh.nodes.size()));
   m.lump_share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m.mesh.nodes.size()));
@@ -243,7 +259,9 @@ BlockResponse FiniteBlock::press(const std::vector<Vec3>& tips) {
   std::vector<Vec3> from = m.tips;
   if (from.size() != tips.size()) {
     from = tips;
-    for (Vec3& tip : from) tip.z() = std::max(0.0, tip.z());
+    for (std::size_t t = 0; t < from.size(); ++t)
+      from[t].z() = m.fromBelow(t) ? std::min(m.mesh.nodes.front().z(), tips[t].z())
+                                   : std::max(0.0, tips[t].z());
   }
   double longest = 0;
   for (std::size_t t = 0; t < tips.size(); ++t)

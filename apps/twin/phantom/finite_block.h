@@ -10,12 +10,13 @@
 /// simulated phantoms; nothing that renders forces may see it.
 namespace palpa::twin {
 
-/// A block on a plate to which it is glued. Frame P: origin in the middle of its top, z up, so that
-/// the block lies at z < 0.
+/// A block on a plate to which it is glued, or in a frame to which its sides are glued. Frame P:
+/// origin in the middle of its top, z up, so that the block lies at z < 0.
 struct SoftBlock {
   double length = 0.10, width = 0.10, height = 0.05;  ///< m, along x, y, z
   double shear = 2.4e3;                               ///< Pa, of small strains
   double bulk_over_shear = 50;                        ///< 50: Poisson's ratio 0.49
+  bool framed = false;  ///< held all round, free above and below; else on a plate
   struct Lump {
     Vec3 centre{0, 0, -0.015};            ///< m; y = 0
     double radius = 0.008, shear = 24e3;  ///< m, Pa
@@ -32,7 +33,8 @@ struct Fineness {
 struct BlockResponse {
   std::vector<Vec3> f;       ///< N, of the block on each tool
   Vec3 lump = Vec3::Zero();  ///< m, how far the lump has moved: mean over its volume
-  double energy = 0;         ///< J
+  double under = 0;   ///< m, how far up the block's lower face has moved under the first tool
+  double energy = 0;  ///< J
   int iterations = 0;
 };
 
@@ -47,8 +49,9 @@ class FiniteBlock {
               const Fineness& fineness = {});
   ~FiniteBlock();
 
-  /// At rest with the tools' lowest points at `tips`; starts from the last answer. Throws Error
-  /// where it finds no equilibrium.
+  /// At rest with the tools' lowest points at `tips`; starts from the last answer. Of a block in a
+  /// frame the second tool presses from below: its highest point. Throws Error where it finds no
+  /// equilibrium.
   BlockResponse press(const std::vector<Vec3>& tips);
   void release();  ///< as it was made
 

@@ -218,7 +218,8 @@ Grid gridOf(const SoftBlock& block, const std::vector<double>& tool_x, double re
     return std::min(spacing(fineness, y - reach), spacingAtLump(block, fineness, 1, y));
   });
   grid.z = planes(-block.height, 0, [&](double z) {
-    return std::min(spacing(fineness, 0.5 * -z), spacingAtLump(block, fineness, 2, z));
+    const double deep = block.framed ? std::min(-z, z + block.height) : -z;
+    return std::min(spacing(fineness, 0.5 * deep), spacingAtLump(block, fineness, 2, z));
   });
   return grid;
 }
@@ -239,7 +240,8 @@ BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, doub
     for (const double y : g.y) {
       for (const double x : g.x) {
         mesh.nodes.emplace_back(x, y, z);
-        const bool glued = z == g.z.front();
+        const bool side = x == g.x.front() || x == g.x.back() || y == g.y.back(),
+                   glued = block.framed ? side : z == g.z.front();
         mesh.fixed.insert(mesh.fixed.end(), {glued, glued || y == 0, glued});
       }
     }
@@ -254,6 +256,7 @@ BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, doub
         const auto below = ring(k), above = ring(k + 1);
         mesh.bricks.push_back(
             {below[0], below[1], below[2], below[3], above[0], above[1], above[2], above[3]});
+        if (k == 0) mesh.bottom.push_back(below);
         if (k + 2 == g.z.size()) mesh.top.push_back(above);
       }
     }

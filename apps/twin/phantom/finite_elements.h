@@ -80,8 +80,8 @@ struct BlockMesh {
   std::vector<Vec3> nodes;                 ///< m, undeformed
   std::vector<std::array<int, 8>> bricks;  ///< nodes counter-clockwise below, then above
   /// faces that tools may touch, counter-clockwise from above
-  std::vector<std::array<int, 4>> top;
-  /// of every coordinate of every node: glued below, in its plane at y = 0
+  std::vector<std::array<int, 4>> top, bottom;
+  /// of every coordinate of every node: glued below, or all round; in its plane at y = 0
   std::vector<bool> fixed;
 };
 
