@@ -82,8 +82,13 @@ enum class SafetyCause : std::uint8_t {
 inline constexpr int kSafetyCauseCount = 16;
 const char* name(SafetyCause cause);
 
-/// Whether there is a force sensor, and whether its word counts in this tick.
-enum class SensorState : std::uint8_t { none, valid, unusable };
+/// Whether there is a force sensor, and whether its word counts in this tick; estimated: there is
+/// none, the force is told from another tool's and the object's law.
+enum class SensorState : std::uint8_t { none, valid, unusable, estimated };
+/// Whether there is a force to reckon with, measured or estimated.
+inline bool hasForce(SensorState state) {
+  return state == SensorState::valid || state == SensorState::estimated;
+}
 
 /// What the tick is told from outside; recorded with every tick, so that it can be run again.
 struct TickCommands {
@@ -121,7 +126,7 @@ static_assert(std::is_trivially_copyable_v<TickCommands>);
 static_assert(offsetof(TickCommands, lumps) == offsetof(TickCommands, friction) + sizeof(float));
 
 /// What a force sensor says of a real object that the tool touches, cleared of tool, bias and
-/// noise.
+/// noise; or what is estimated of it.
 struct SensedForce {
   Packed3 f_D{};  ///< of the object on the tool, N
   /// M, where the point that touches was (a round tip's middle), as late as the force is

@@ -135,6 +135,11 @@ std::vector<PlainTouches> pinchPlain(const twin::OpposedTable& plain, Noise nois
 /// and stroked by one tool alone, in a frame that moves with the slab.
 haptics::TouchAugmentation lumpInSlab(const twin::OpposedPhantom& lumped, const KnownSlab& known,
                                       Noise noise);
+/// What a second tool presses with as it is estimated from the first one's reaction, both places
+/// and the law, as if it had no sensor, against what it truly presses with: rms over rms, over all
+/// ticks in which it touches.
+double estimateError(const PlainTouches& touches, const haptics::StiffnessModulation& law,
+                     double tip_radius, double thickness);
 LumpFigures opposedFigures(const std::vector<PlainTouches>& plain,
                            const twin::OpposedPhantom& lumped,
                            const haptics::TouchAugmentation& law);

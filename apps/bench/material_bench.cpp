@@ -59,6 +59,17 @@ void benchSqueeze(const twin::PhantomTable& side, const calibration::SoftContact
   }
 }
 
+/// A second tool that is only tracked, of both kinds of contact.
+void benchEstimate(const std::vector<PlainTouches>& plain, const haptics::StiffnessModulation& law,
+                   double tip_radius, double thickness, Noise noise) {
+  for (const PlainTouches& touches : plain) {
+    nlohmann::json params = paramsOf(noise);
+    params["motion"] = touches.motion;
+    print("estimated_force_rel_rms", estimateError(touches, law, tip_radius, thickness), "1",
+          params);
+  }
+}
+
 void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& known, Noise noise,
                 std::size_t most) {
   const std::array<std::vector<PlainTouches>, 2> plain{touchPlain(phantoms.front(), 1, noise),
@@ -89,6 +100,8 @@ void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
     print("taken_lump_rel_rms", taken.left, "1", params);
     print("untaken_lump_rel_rms", taken.there, "1", params);
     print("taken_stiffness", taken.taken_N_per_m, "N/m", params);
+    if (i == 1)
+      benchEstimate(plain[1], feelingOf(known, 0.1), phantoms[i].table.tool_radius, 0, noise);
     for (const PlainTouches& touches : plain[1]) {
       params["motion"] = touches.motion;
       print("two_tools_rel_rms", lumpFigures({touches}, phantoms[i], law).error, "1", params);
@@ -123,6 +136,8 @@ void benchSteadied(const std::vector<twin::HandGrip>& hands) {
 void benchOpposed(const std::vector<twin::OpposedPhantom>& slabs, Noise noise) {
   const KnownSlab known = identifySlab(slabs.front().table, noise);
   const std::vector<PlainTouches> plain = pinchPlain(slabs.front().table, noise);
+  benchEstimate(plain, feelingOf(known.pinched, 0.1), slabs.front().table.tool_radius,
+                slabs.front().block.height, noise);
   for (std::size_t i = 1; i < slabs.size(); ++i) {
     const haptics::TouchAugmentation law = lumpInSlab(slabs[i], known, noise);
     for (const PlainTouches& touches : plain) {

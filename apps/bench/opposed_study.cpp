@@ -3,6 +3,7 @@
 
 #include "apps/bench/contact_study.h"
 #include "calibration/touch/contact_laws.h"
+#include "haptics/modulation/estimated_reaction.h"
 #include "haptics/modulation/touch_augmentation.h"
 
 namespace palpa::bench {
@@ -79,7 +80,7 @@ KnownSlab identifySlab(const twin::OpposedTable& plain, Noise noise) {
 }
 
 std::vector<PlainTouches> pinchPlain(const twin::OpposedTable& plain, Noise noise) {
-  constexpr double kShift = 3e-3, kReach = 0.01;  // m
+  constexpr double kShift = 3e-3, kStrokeReach = 0.01;  // m
   LedTip together(Vec3(kShift, 0, kClear));
   for (const double depth : {0.5 * kPinchDeep, 0.8 * kPinchDeep, kPinchDeep})
     together.go({kShift, 0, -depth}, 0.5, 0.3).go({kShift, 0, kClear}, 0.4);
@@ -94,10 +95,12 @@ std::vector<PlainTouches> pinchPlain(const twin::OpposedTable& plain, Noise nois
     press(kPinchLight, kPinchDeep, 0.35, 0.1);
   }
   press(-kClear, -kClear, 0.3, 0);
-  LedTip stroke(Vec3(-kReach, 0, kClear));
+  LedTip stroke(Vec3(-kStrokeReach, 0, kClear));
   for (const double depth : {0.6 * kPinchDeep, 0.9 * kPinchDeep})
-    stroke.go({-kReach, 0, -depth}, 0.4).go({kReach, 0, -depth}, 0.9).go({-kReach, 0, -depth}, 0.8);
-  stroke.go({-kReach, 0, kClear}, 0.4);
+    stroke.go({-kStrokeReach, 0, -depth}, 0.4)
+        .go({kStrokeReach, 0, -depth}, 0.9)
+        .go({-kStrokeReach, 0, -depth}, 0.8);
+  stroke.go({-kStrokeReach, 0, kClear}, 0.4);
   std::vector<PlainTouches> all;
   std::uint64_t seed = kPinchFresh;
   const twin::OpposedPhantomTwin twin(plain, {});
@@ -151,6 +154,20 @@ haptics::TouchAugmentation lumpInSlab(const twin::OpposedPhantom& lumped, const 
   law.kinds[0] = {found.l0, found.H_T, found.G};
   law.tip_radius = lumped.table.tool_radius;
   return law;
+}
+
+double estimateError(const PlainTouches& touches, const haptics::StiffnessModulation& law,
+                     double tip_radius, double thickness) {
+  RelativeRms error;
+  haptics::EstimateState state;
+  for (const auto& [first, second] : touches.ticks) {
+    const Vec3 up = tip_radius * Vec3::UnitZ(), off = touches.opposed ? Vec3(-up) : up;
+    const haptics::EstimatedReaction told = haptics::estimateReaction(
+        law, {touches.opposed, thickness}, tip_radius, {true, first.tip + up, first.f_r},
+        second.tip + off, kPhantomTick, &state);
+    if (second.truth.contact) error.add(told.f_r - second.truth.f, second.truth.f);
+  }
+  return error.value();
 }
 
 LumpFigures opposedFigures(const std::vector<PlainTouches>& plain,

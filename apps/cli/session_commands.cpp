@@ -57,6 +57,8 @@ constexpr const char* kPalpationExamples = R"(Examples:
       a lump that really lies in the silicone: felt in half of the cases, taken away in the others; what of that is passive is printed first
   palpa palpation --tools 2 --operator expert --fast
       two fingers side by side, each on a device of its own; what is found is rolled between them
+  palpa palpation --tools 2 --second finger --operator expert --fast
+      the second is a finger of the other hand, tracked, without a force sensor: its force is estimated
   palpa palpation --station my_station.json --guidance on --trials 16
       you, on a station with a haptic device and a force sensor; help that fades; every other case is without it
   palpa palpation
@@ -104,6 +106,15 @@ void addPalpation(CLI::App& program) {
                    "Fingers that press (default 1); 2: each on a device of its own, side by side")
       ->check(CLI::Range(1, 2))
       ->type_name("1|2");
+  command
+      ->add_option_function<std::string>(
+          "--second",
+          [options](const std::string& what) { options->tracked_finger = what == "finger"; },
+          "What the second finger is on: a device with a force sensor (default), or nothing: a "
+          "bare "
+          "finger that is tracked, whose force is estimated")
+      ->check(oneOf({"device", "finger"}))
+      ->type_name("device|finger");
   addAugmentArgument(*command, *options);
   addRunArguments(*command, *options);
   command->callback([options, preset] {

@@ -223,7 +223,7 @@ ReplayCheck replayPairs(const record::SessionReader& reader) {
       return;
     }
     const std::array<haptics::FlightRecord, 2> again =
-        haptics::tickPair(config, *state, {first->reading, recorded.reading}, recorded.commands,
+        haptics::tickPair(config, *state, {first->reading, recorded.reading}, first->commands,
                           recorded.t_ns, {first->sensed, recorded.sensed});
     count(*first, again[0], &check);
     count(recorded, again[1], &check);

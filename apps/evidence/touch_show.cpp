@@ -124,6 +124,7 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
                                    "phantom");
     const std::optional<haptics::PairConfig>& pair = reader_.info().pair_config;
     if (pair) trial_.X_AD2 = anatomy::X_AP() * unpack(pair->tools[1].X_DP).inverse();
+    trial_.estimated = pair && pair->estimated;
     replay::PalpationReader reader(config(), pair, trial_.number);
     receive(reader, [&] { return reader.seconds(); });
     reader.into(trial_);

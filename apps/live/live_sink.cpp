@@ -51,7 +51,7 @@ double rounded(double value, double step) { return std::round(value / step) * st
 }  // namespace
 
 double feltForce(const haptics::FlightRecord& record) {
-  if (record.sensed.state == haptics::SensorState::valid)
+  if (haptics::hasForce(record.sensed.state))
     return (unpack(record.sensed.f_D) + unpack(record.f_command_D)).norm();
   return unpack(record.f_contact_D).norm();
 }

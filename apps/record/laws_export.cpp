@@ -95,6 +95,21 @@ json lumpsOf(const SessionReader& reader) {
   return all;
 }
 
+/// How the second tool's force is told that has no sensor.
+json estimateOf(const haptics::PairConfig& pair) {
+  const haptics::TickConfig& tool = pair.tools[1];
+  return {{"about",
+           "The second tool has no force sensor: what it presses with is estimated from the first "
+           "one's reaction, both places and H. p_EM: the middle of its tip in E"},
+          {"face", pair.opposed ? "opposed" : "beside"},
+          {"thickness_m", static_cast<double>(pair.thickness)},
+          {"p_EM_m", pack(Vec3(unpack(tool.X_ET) * Vec3(0, 0, -tool.touch.tip_radius)))},
+          {"smooth_s", haptics::kEstimateSmooth_s},
+          {"placed_within_m", haptics::kFacePlacedWithin},
+          {"force_doubt_N", haptics::kEstimateForceDoubt},
+          {"depth_doubt", haptics::kEstimateDepthDoubt}};
+}
+
 }  // namespace
 
 std::string lawsJson(const SessionReader& reader) {
@@ -121,6 +136,7 @@ std::string lawsJson(const SessionReader& reader) {
     laws["squeeze"] = {{"H", jsonOf(pair->squeeze.real)},
                        {"x0_m", pair->squeeze.x0},
                        {"least_contact_N", pair->squeeze.least_contact}};
+  if (pair && pair->estimated) laws["estimated"] = estimateOf(*pair);
   return laws.dump(1);
 }
 

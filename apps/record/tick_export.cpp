@@ -218,11 +218,13 @@ void addTip(std::vector<ExportColumn>& columns, const haptics::TickConfig& confi
 
 void addSensed(std::vector<ExportColumn>& columns) {
   for (int i = 0; i < 3; ++i)
-    columns.push_back({{std::string("f_sensed_D_") + "xyz"[i] + "_N",
-                        "force sensor: of a real object on the tool, device base"},
-                       [=](const FlightRecord& r) {
-                         return shortest(r.sensed.f_D[static_cast<std::size_t>(i)]);
-                       }});
+    columns.push_back(
+        {{std::string("f_sensed_D_") + "xyz"[i] + "_N",
+          "force sensor: of a real object on the tool, device base; where `sensor` says "
+          "estimated, no sensor's but told from the other tool's"},
+         [=](const FlightRecord& r) {
+           return shortest(r.sensed.f_D[static_cast<std::size_t>(i)]);
+         }});
   for (int i = 0; i < 3; ++i)
     columns.push_back(
         {{std::string("p_sensed_D_") + "xyz"[i] + "_m",
@@ -230,11 +232,12 @@ void addSensed(std::vector<ExportColumn>& columns) {
          [=](const FlightRecord& r) {
            return shortest(r.sensed.p_DK[static_cast<std::size_t>(i)]);
          }});
-  columns.push_back({{"sensor", "none, valid or unusable"}, [](const FlightRecord& r) {
-                       static constexpr const char* kWords[] = {"none", "valid", "unusable"};
-                       const auto index = static_cast<std::size_t>(r.sensed.state);
-                       return std::string(index < std::size(kWords) ? kWords[index] : "?");
-                     }});
+  columns.push_back(
+      {{"sensor", "none, valid, unusable or estimated"}, [](const FlightRecord& r) {
+         static constexpr const char* kWords[] = {"none", "valid", "unusable", "estimated"};
+         const auto index = static_cast<std::size_t>(r.sensed.state);
+         return std::string(index < std::size(kWords) ? kWords[index] : "?");
+       }});
 }
 
 /// What was added to it all, by which of the task's augmentations, in which of its parts.

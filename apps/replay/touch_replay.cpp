@@ -17,7 +17,8 @@ class PalpationReplay final : public TrialReplay {
       : TrialReplay(trial, trial.length_s()),
         recorded_(trial),
         map_(emptyMap()),
-        scene_({stage(view), anatomy::X_AP(), trial.rules.area, trial.tip_radius, "", trial.X_AD2},
+        scene_({stage(view), anatomy::X_AP(), trial.rules.area, trial.tip_radius, "", trial.X_AD2,
+                trial.estimated},
                bus_, channels_) {}
 
  private:

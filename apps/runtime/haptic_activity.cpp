@@ -73,7 +73,7 @@ ToolState toolStateOf(const PackedPose& X_DT, const haptics::FlightRecord& recor
   tool.bone = record.bone;
   tool.safety = record.safety;
   tool.homed = record.reading.homed;
-  if (record.sensed.state == haptics::SensorState::valid) tool.f_sensed_D = record.sensed.f_D;
+  if (haptics::hasForce(record.sensed.state)) tool.f_sensed_D = record.sensed.f_D;
   return tool;
 }
 
@@ -144,7 +144,7 @@ std::int64_t HapticPairActivity::step(std::int64_t now_ns) {
   std::array<haptics::SensedForce, 2> sensed;
   for (std::size_t t = 0; t < 2; ++t) {
     readings[t] = tools_[t].device.read(now_ns);
-    sensed[t] = tools_[t].sensing.sense(readings[t], now_ns);
+    if (tools_[t].sensing) sensed[t] = tools_[t].sensing->sense(readings[t], now_ns);
   }
   std::array<haptics::FlightRecord, 2> records =
       haptics::tickPair(config_, state_, readings, commandsFor(bus_, now_ns), now_ns, sensed);

@@ -116,10 +116,10 @@ class HapticActivity final : public Activity {
   std::int64_t due_ns_ = -1;
 };
 
-/// A device with the sensor on its tool.
+/// A device with the sensor on its tool; null: a tool that is only tracked.
 struct SensedTool {
   haptics::HapticDevice& device;
-  ForceSensing& sensing;
+  ForceSensing* sensing;
 };
 
 /// HAPTIC where two devices touch one real thing, every `TickConfig::period_ns` of the first: both

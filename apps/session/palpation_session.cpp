@@ -8,11 +8,9 @@
 #include <tuple>
 
 #include "anatomy/base/counted.h"
-#include "apps/evidence/recorded_trials.h"
 #include "apps/report/palpation/palpation_report.h"
 #include "apps/session/mouse_hands.h"
 #include "apps/session/output_folder.h"
-#include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
 #include "apps/task_palpation/palpation_scene.h"
 #include "apps/task_palpation/palpation_task.h"
@@ -23,8 +21,9 @@
 namespace palpa::session {
 namespace {
 
-constexpr double kPickedUp = 0.05;  // m above the phantom
-constexpr double kBeside = 0.02;    // m, of the second finger
+constexpr double kPickedUp = 0.05;                      // m above the phantom
+constexpr double kBeside = 0.02;                        // m, of the second finger
+constexpr std::int64_t kTrackerSilent_ns = 50'000'000;  // some periods of a slow tracker [chosen]
 
 /// What anybody sees or has learnt of the phantom.
 twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
@@ -74,6 +73,8 @@ std::vector<report::Fact> PalpationWorld::takenFacts(const SessionOptions& optio
 }
 
 void PalpationWorld::checkFingers(const SessionOptions& options) const {
+  if (options.tracked_finger && options.tools < 2)
+    throw UsageError("is of a second finger", "--second finger", "Add --tools 2");
   if (options.tools < 2) return;
   if (!station.second_X_WD)
     throw UsageError("has no \"second_device\"", station.file.name(),
@@ -100,6 +101,10 @@ std::optional<haptics::PairConfig> PalpationWorld::pairConfig(const SessionOptio
   haptics::PairConfig pair;
   pair.tools.fill(tickConfig(options));
   pair.tools[1].X_DP = pack(Pose(station.second_X_WD->inverse() * station.sample->X_WP));
+  if (options.tracked_finger) {
+    pair.estimated = 1;
+    pair.tools[1].safety.silent_ns = kTrackerSilent_ns;
+  }
   return pair;
 }
 
@@ -136,7 +141,8 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
     bench.second = twin::SecondTool{
         .hand = std::move(fingers[1]),
         .X_WD = *station.second_X_WD,
-        .X_DE_start = station.second_X_WD->inverse() * pickedUp(kBeside) * station.X_ET.inverse()};
+        .X_DE_start = station.second_X_WD->inverse() * pickedUp(kBeside) * station.X_ET.inverse(),
+        .tracker = options.tracked_finger ? std::optional(twin::FingerTracker{}) : std::nullopt};
   if (onBench()) {
     const auto sample = std::make_shared<twin::SampleTwin>(
         station, task.real ? task.library.kinds[task.real->lump.kind].name : "",
@@ -158,19 +164,14 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
   record::SessionInfo info = infoOf(options, head(options),
                                     {{"guidance", options.guidance},
                                      {"see_through", options.see_through},
-                                     {"augment", options.augment}});
+                                     {"augment", options.augment},
+                                     {"tools", options.tools},
+                                     {"second", options.tracked_finger ? "finger" : "device"}});
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);
   info.pair_config = pairConfig(options);
   return info;
-}
-
-std::string PalpationWorld::forceNote() const {
-  const double deep = task.scoring.rules.levels.back(), clinical = task.clinical_force_N;
-  if (clinical <= 0) return format("Deep is %.1f N here", deep);
-  if (station.safety.max_force_N >= clinical && deep >= clinical) return "";
-  return format("Scaled force: deep is %.1f N here, about %.0f N on a patient", deep, clinical);
 }
 
 namespace {
@@ -225,7 +226,8 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
                                         .area = world.task.scoring.rules.area,
                                         .tip_radius = world.task.library.tip_radius,
                                         .force_note = world.forceNote(),
-                                        .X_AD2 = second},
+                                        .X_AD2 = second,
+                                        .estimated = options.tracked_finger},
                                        frame.bus(), channels);
   PalpationRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
@@ -238,10 +240,10 @@ namespace {
 std::vector<report::PalpationPage> pagesOf(
     const assess::PalpationRules& rules,
     const std::vector<task_palpation::CompletedPalpation>& trials,
-    const std::vector<trial::SavedPicture>& pictures) {
+    const std::vector<trial::SavedPicture>& pictures, bool estimated) {
   std::vector<report::PalpationPage> pages;
   for (const auto& trial : trials) {
-    report::PalpationPage page{trial.assessment, {}, rules, {}};
+    report::PalpationPage page{trial.assessment, {}, rules, {}, estimated};
     for (const trial::SavedPicture& p : pictures)
       if (p.moment.trial == trial.assessment.facts.trial)
         page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
@@ -250,27 +252,21 @@ std::vector<report::PalpationPage> pagesOf(
   return pages;
 }
 
-/// From the evidence.
-report::Courses<assess::PalpationSample> touchesIn(const std::filesystem::path& evidence) {
-  return [evidence](const auto& draw) {
-    evidence::eachPalpation(
-        record::SessionReader(evidence),
-        [&](const record::RecordedTrial& trial, const task_palpation::PalpationListener& felt) {
-          draw(trial.header.trial, felt.samples());
-        });
-  };
-}
-
 }  // namespace
+
+std::string PalpationWorld::forceNote() const {
+  const double deep = task.scoring.rules.levels.back(), clinical = task.clinical_force_N;
+  if (clinical <= 0) return format("Deep is %.1f N here", deep);
+  if (station.safety.max_force_N >= clinical && deep >= clinical) return "";
+  return format("Scaled force: deep is %.1f N here, about %.0f N on a patient", deep, clinical);
+}
 
 ReportHead PalpationWorld::head(const SessionOptions& options) const {
   ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
   head.force_note = forceNote();
   head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
-  if (options.tools == 2)
-    head.station.push_back(
-        {"Tools", "two fingers side by side", "each lump is solved under both; each is judged"});
+  for (report::Fact& fact : fingerFacts(options)) head.station.push_back(std::move(fact));
   for (report::Fact& fact : lumpFacts(task.library)) head.station.push_back(std::move(fact));
   for (report::Fact& fact : takenFacts(options)) head.station.push_back(std::move(fact));
   head.parts = meaningsOf(task.augmentations);
@@ -295,8 +291,9 @@ void writePalpationResults(const ReportHead& head,
   page.trainee = head.trainee;
   page.simulated = head.simulated;
   page.force_note = head.force_note;
-  page.trials = pagesOf(scoring.rules, trials, tail.pictures);
-  page.courses = touchesIn(evidence);
+  const auto pair = record::SessionReader(evidence).info().pair_config;
+  page.trials = pagesOf(scoring.rules, trials, tail.pictures, pair && pair->estimated);
+  page.courses = palpationCourses(evidence);
   page.standard = scoring.standard;
   page.taxonomy = head.taxonomy;
   page.station = head.station;

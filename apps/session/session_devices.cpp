@@ -123,16 +123,18 @@ SessionDevices::SessionDevices(const SessionOptions& options, const station::Sta
   if (bench_moves_) bench_sensor_ = benchSensor(station, mode);
   if (hands.bench.second) {
     second_ = std::make_unique<Second>(station.device.capabilities, mode);
-    second_->sensor = benchSensor(station, mode);
-    if (!bench_moves_ || !second_->sensor)
+    const bool tracked = hands.bench.second->tracker.has_value();
+    if (!tracked) second_->sensor = benchSensor(station, mode);
+    if (!bench_moves_ || (!tracked && !second_->sensor))
       throw UsageError("does not have two devices with force sensors that this program can drive",
                        station.file.name(),
                        "So far, two tools can only be simulated: leave out --station, take "
                        "--operator expert or novice");
     hands.bench.second->device = &second_->device;
     hands.bench.second->sensor = second_->sensor.get();
-    second_->sensing.emplace(*second_->sensor, sensingSetup(options.rate_Hz, hands.tip_radius,
-                                                            hands.bench.second->X_WD));
+    if (!tracked)
+      second_->sensing.emplace(*second_->sensor, sensingSetup(options.rate_Hz, hands.tip_radius,
+                                                              hands.bench.second->X_WD));
   }
   if (bench_moves_ ||
       (options.camera.empty() && station.camera_setup.driver == station::CameraDriver::bench))

@@ -54,13 +54,15 @@ class SessionDevices {
   ~SessionDevices();
 
   haptics::HapticDevice& device() { return *plunger_; }
-  /// Another device beside the first, with its sensor; null where the task takes one.
+  /// Another device beside the first, with its sensor, or a finger that is only tracked; null where
+  /// the task takes one.
   struct Second {
     Second(const haptics::DeviceCapabilities& capabilities, runtime::TimeMode mode)
         : device(capabilities, mode) {}
     runtime::ChannelDevice device;
     std::unique_ptr<runtime::ChannelSensor> sensor;
     std::optional<runtime::ForceSensing> sensing;
+    runtime::ForceSensing* sense() { return sensing ? &*sensing : nullptr; }
   };
   Second* second() { return second_.get(); }
   runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }

@@ -10,6 +10,7 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/assess/dose_counter.h"
+#include "apps/evidence/recorded_trials.h"
 #include "apps/report/page/style.h"
 #include "apps/runtime/clock.h"
 #include "apps/station/taken_away.h"
@@ -110,6 +111,27 @@ void sayTaken(const SessionOptions& options, const std::vector<report::Fact>& fa
   for (const report::Fact& fact : facts)
     std::printf("%s: %s\n", fact.name.c_str(), fact.value.c_str());
   std::fflush(stdout);
+}
+
+std::vector<report::Fact> fingerFacts(const SessionOptions& options) {
+  if (options.tools < 2) return {};
+  std::vector<report::Fact> facts{
+      {"Tools", "two fingers side by side", "each lump is solved under both; each is judged"}};
+  if (options.tracked_finger)
+    facts.push_back({"Second finger's force", "estimated",
+                     "it is tracked and has no force sensor: told from the first finger's "
+                     "reaction, both places and the silicone's law; it is given no force"});
+  return facts;
+}
+
+report::Courses<assess::PalpationSample> palpationCourses(const std::filesystem::path& evidence) {
+  return [evidence](const auto& draw) {
+    evidence::eachPalpation(
+        record::SessionReader(evidence),
+        [&](const record::RecordedTrial& trial, const task_palpation::PalpationListener& felt) {
+          draw(trial.header.trial, felt.samples());
+        });
+  };
 }
 
 std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy) {

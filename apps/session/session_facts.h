@@ -6,6 +6,7 @@
 
 #include "apps/record/session_file.h"
 #include "apps/report/needle/session_report.h"
+#include "apps/report/palpation/palpation_report.h"
 #include "apps/runtime/flight_sink.h"
 #include "apps/session/session_frame.h"
 #include "apps/station/material_files.h"
@@ -26,6 +27,10 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
 std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy);
 /// By what the surface that is touched is known.
 report::Fact surfaceFact(const station::LumpLibrary& library);
+/// Of two fingers: how they press, and of whose force there is no sensor; of one nothing.
+std::vector<report::Fact> fingerFacts(const SessionOptions& options);
+/// What was felt in each trial, from the evidence.
+report::Courses<assess::PalpationSample> palpationCourses(const std::filesystem::path& evidence);
 /// Each of its lumps: size, depth, hardness, how much it changes the force.
 std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library);
 /// What the device takes away of what is real, and what of it is passive; said on standard output

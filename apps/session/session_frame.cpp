@@ -187,8 +187,8 @@ std::unique_ptr<runtime::Activity> SessionFrame::loop(runtime::GeometryActivity*
   using runtime::SensedTool;
   return std::make_unique<runtime::HapticPairActivity>(
       bus_,
-      std::array<SensedTool, 2>{SensedTool{devices_.device(), *devices_.sensing()},
-                                SensedTool{devices_.second()->device, *devices_.second()->sensing}},
+      std::array<SensedTool, 2>{SensedTool{devices_.device(), devices_.sensing()},
+                                SensedTool{devices_.second()->device, devices_.second()->sense()}},
       *world_.pair);
 }
 

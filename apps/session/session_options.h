@@ -106,6 +106,7 @@ struct SessionOptions {
   bool guidance = false;                  ///< palpation: help that fades, in every other trial
   bool see_through = false;               ///< palpation: the lumps are shown; not scored
   int tools = 1;                          ///< palpation: 2: fingers, each on a device of its own
+  bool tracked_finger = false;  ///< palpation: the second is bare and tracked; its force estimated
   /// search: real, degraded, augmented, or all of them one after the other
   std::string mode = "real";
   bool sort = false;     ///< friction: several surfaces are put in order, in place of two compared

@@ -92,6 +92,8 @@ scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::stri
                    lineOf("%.1f N ", status_.pressed_N) + kPressures[status_.level], &hud);
   if (status_.active()) {
     hud.note = setup_.force_note;
+    if (setup_.estimated)
+      hud.note += std::string(hud.note.empty() ? "" : ". ") + "Second finger's force: estimated";
     if (!status_.marks_P.empty())
       hud.marked = lineOf("%d", static_cast<int>(status_.marks_P.size()));
   }

@@ -25,6 +25,7 @@ struct PalpationSceneSetup {
   double tip_radius = 0.008;  ///< m
   std::string force_note;     ///< what deep is here; empty: as on a patient
   std::optional<Pose> X_AD2;  ///< the second device's base, of two
+  bool estimated = false;     ///< what the second presses with is no sensor's
 };
 
 /// What is seen of a palpation: the area and how firmly it was felt, marks, lumps where they may be

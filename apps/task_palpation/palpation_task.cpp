@@ -168,6 +168,10 @@ std::string PalpationTask::notReady(const haptics::FlightRecord&) const {
   for (std::size_t t = 0; t < (setup_.pair ? 2u : 1u); ++t) {
     const haptics::FlightRecord& last = last_of_[t];
     const std::string which = !setup_.pair ? "" : t == 0 ? "first " : "second ";
+    if (t == 1 && setup_.pair->estimated) {
+      if (!last.reading.homed) return "the second finger is not tracked";
+      continue;
+    }
     if (last.sensed.state != haptics::SensorState::valid)
       return "the " + which + "force sensor gives no reading that can be used";
     if (unpack(last.sensed.f_D).norm() < setup_.settings.scoring.rules.touch) continue;

@@ -20,7 +20,8 @@ constexpr std::int64_t kLongestHandStep_ns = 5'000'000;  // no movement is longe
 HeldTool::HeldTool(HeldToolSetup setup)
     : setup_(std::move(setup)),
       mechanics_(setup_.truth, setup_.X_DE_start),
-      cell_noise_(setup_.seed, "bench.force_cells") {
+      cell_noise_(setup_.seed, "bench.force_cells"),
+      tracker_noise_(setup_.seed, "bench.tracker") {
   if (setup_.sensor) felt_.emplace(setup_.sensor_truth, setup_.seed);
 }
 
@@ -76,7 +77,23 @@ void HeldTool::measureForces(haptics::DeviceReading& reading) {
   reading.instrumented = 1;
 }
 
+void HeldTool::publishTracked(std::int64_t now_ns) {
+  if (tracked_ns_ >= 0 && now_ns - tracked_ns_ < setup_.tracker->period_ns) return;
+  tracked_ns_ = now_ns;
+  RandomStream& noise = tracker_noise_;
+  const Vec3 off = setup_.tracker->noise * Vec3(noise.normal(), noise.normal(), noise.normal());
+  const Pose X_DE = mechanics_.truePose();
+  haptics::DeviceReading reading;
+  reading.t_ns = now_ns;
+  reading.sequence = ++sequence_;
+  reading.p_DE = pack(Vec3(X_DE.translation() + off));
+  reading.q_DE = pack(Quat(X_DE.linear()));
+  reading.homed = 1;
+  setup_.device->publish(reading, now_ns);
+}
+
 void HeldTool::publish(std::int64_t now_ns, double dt) {
+  if (setup_.tracker) return publishTracked(now_ns);
   haptics::DeviceReading reading;
   const PackedPose X_DE = mechanics_.encoderPose();
   reading.t_ns = now_ns;
@@ -129,7 +146,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
       const Pose X_WD2_true = X_WD_true * X_WD_believed.inverse() * setup.second->X_WD;
       tools.emplace_back(toolSetup(std::move(setup.second->hand), setup.second->X_DE_start,
                                    X_WD2_true, *setup.second->device, setup.second->sensor,
-                                   setup.seed + 1));
+                                   setup.seed + 1, setup.second->tracker));
     }
   }
 
@@ -143,7 +160,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
 
   HeldToolSetup toolSetup(std::unique_ptr<Hand> hand, const Pose& X_DE_start, const Pose& X_WD,
                           runtime::ChannelDevice& device, runtime::ChannelSensor* sensor,
-                          std::uint64_t seed) const {
+                          std::uint64_t seed,
+                          const std::optional<FingerTracker>& tracker = {}) const {
     HeldToolSetup tool{.hand = std::move(hand),
                        .truth = trueDevice(station, seed),
                        .X_WD = X_WD,
@@ -152,7 +170,12 @@ struct VirtualBench::Impl final : public runtime::Activity {
                        .device = &device,
                        .sensor = sensor,
                        .faults = readSensorFaults(station.file),
-                       .seed = seed};
+                       .seed = seed,
+                       .tracker = tracker};
+    if (tracker) {  // what a finger carries: a light cap
+      tool.truth.apparent_mass = 0.01;
+      tool.truth.coulomb = tool.truth.viscous = tool.truth.weight_N = 0;
+    }
     if (!sensor) return tool;
     tool.sensor_truth = trueSensor(station, seed);
     tool.X_ES = station.force_sensor->X_ES;

@@ -17,6 +17,13 @@
 
 namespace palpa::twin {
 
+/// What follows a bare finger, as it truly is: how often it says where that is, and how far off
+/// that is from one time to the next. It pushes nothing.
+struct FingerTracker {
+  std::int64_t period_ns = 8'000'000;
+  double noise = 1e-4;  ///< m, each axis [chosen: about an electromagnetic sensor's on a nail]
+};
+
 /// A simulated device, as it truly is, and who holds it.
 struct HeldToolSetup {
   std::unique_ptr<Hand> hand;
@@ -30,6 +37,7 @@ struct HeldToolSetup {
   haptics::Wrench zero = {};  ///< what the station takes off as bias
   std::vector<SensorFault> faults;
   std::uint64_t seed = 1;
+  std::optional<FingerTracker> tracker = {};  ///< in place of a device
 };
 
 /// Of something real under the tool: its force on it, N, and where that acts. In W.
@@ -59,6 +67,7 @@ class HeldTool {
 
  private:
   void measureForces(haptics::DeviceReading& reading);
+  void publishTracked(std::int64_t now_ns);
   void passTime(bool waits, std::int64_t now_ns);
 
   HeldToolSetup setup_;
@@ -71,6 +80,8 @@ class HeldTool {
        f_device_D_ = Vec3::Zero();  // the last two: means over the step
   std::uint64_t sequence_ = 0;
   std::int64_t last_ns_ = -1, missed_ns_ = 0;  ///< of the session, in which the hand's time stood
+  std::int64_t tracked_ns_ = -1;               ///< when a tracker spoke last
+  RandomStream tracker_noise_;
 };
 
 /// How far the estimates were from the simulated truth; for reports only.
@@ -87,10 +98,12 @@ struct BenchAccuracy {
 using TouchedObject =
     std::function<std::array<RealTouch, 2>(const std::array<Pose, 2>& X_WT, double dt)>;
 
-/// Another device of the same make on the same table.
+/// Another device of the same make on the same table; or a bare finger that is only tracked, in the
+/// frame of that device.
 struct SecondTool {
   std::unique_ptr<Hand> hand;
   Pose X_WD, X_DE_start;
+  std::optional<FingerTracker> tracker = {};
   runtime::ChannelDevice* device = nullptr;
   runtime::ChannelSensor* sensor = nullptr;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "haptics/loop/tick_frame.h"
+#include "haptics/safety/plausibility.h"
 
 namespace palpa::haptics {
 namespace {
@@ -121,6 +122,34 @@ AddedForces squeezed(const PairConfig& config, PairState& state,
 
 }  // namespace
 
+namespace {
+
+/// Of the second tool, by the first one's, which must be believed.
+SensedForce estimatedForce(const PairConfig& config, PairState& state, const DeviceReading& reading,
+                           const TickFrame& first, const ToolTouch& touch) noexcept {
+  const TickConfig& tool = config.tools[1];
+  SensedForce sensed;
+  sensed.state = SensorState::unusable;
+  if (!first.felt || !reading.homed || !possible(reading)) {
+    state.estimate = {};
+    return sensed;
+  }
+  const Pose X_DP = unpack(tool.X_DP),
+             X_DE = makePose(unpack(reading.q_DE).normalized().toRotationMatrix(),
+                             unpack(reading.p_DE));
+  const Vec3 p_DM = X_DE * (unpack(tool.X_ET) * Vec3(0, 0, -tool.touch.tip_radius));
+  const EstimatedReaction told = estimateReaction(
+      config.tools[0].touch.surface.contact,
+      {config.opposed != 0, static_cast<double>(config.thickness)}, tool.touch.tip_radius, touch,
+      X_DP.inverse() * p_DM, first.input.dt, &state.estimate);
+  sensed.state = SensorState::estimated;
+  sensed.f_D = pack(Vec3(X_DP.linear() * told.f_r));
+  sensed.p_DK = pack(Vec3(X_DP * told.p_M));
+  return sensed;
+}
+
+}  // namespace
+
 std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
                                      const std::array<DeviceReading, 2>& readings,
                                      const TickCommands& commands, std::int64_t now_ns,
@@ -129,13 +158,19 @@ std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
     state.trial = commands.trial;
     state.touch = {};
     state.squeeze = {};
+    state.estimate = {};
   }
   std::array<TickFrame, 2> frames;
   std::array<ToolTouch, 2> tools;
   for (std::size_t t = 0; t < 2; ++t) {
-    frames[t] = beginTick(config.tools[t], state.tools[t], readings[t], nullptr, commands, now_ns,
-                          sensed[t]);
-    if (frames[t].felt) tools[t] = touchIn(config.tools[t], sensed[t]);
+    const bool estimated = t == 1 && config.estimated;
+    const SensedForce felt =
+        estimated ? estimatedForce(config, state, readings[1], frames[0], tools[0]) : sensed[t];
+    TickCommands told = commands;
+    if (estimated) told.force_feedback = 0;  // it has no drives
+    frames[t] =
+        beginTick(config.tools[t], state.tools[t], readings[t], nullptr, told, now_ns, felt);
+    if (frames[t].felt) tools[t] = touchIn(config.tools[t], felt);
     tools[t].friction = static_cast<double>(commands.friction);
   }
   const AddedForces added = config.squeezing

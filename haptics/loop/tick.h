@@ -31,7 +31,9 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
 /// One tick of both: readings -> what each sensor felt -> augmentTouch, or modulateSqueeze -> each
 /// device's passivity and safety. Each device keeps its own limits and is judged by its own
 /// readings: pressing goes on with the one that is believed; squeezing, which takes two, gives no
-/// force then. What is held is `commands.squeeze_*` times as hard and heavy as the law has it.
+/// force then. A second tool that is only tracked (`PairConfig::estimated`) is felt by estimate:
+/// what `sensed` says of it is not asked for, its record says what was estimated, and it is given
+/// no force. What is held is `commands.squeeze_*` times as hard and heavy as the law has it.
 /// Pure; the promises of `tick`.
 std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
                                      const std::array<DeviceReading, 2>& readings,

@@ -57,7 +57,12 @@ struct PairConfig {
   std::array<TickConfig, 2> tools;
   SqueezeModulation squeeze;
   std::uint8_t squeezing = 0;  ///< 1: held between the tools, in place of pressed
-  std::uint8_t reserved[7]{};
+  /// 1: the second tool is tracked and has neither a force sensor nor drives: what it presses with
+  /// is estimated (`estimateReaction`), and it is given no force
+  std::uint8_t estimated = 0;
+  std::uint8_t opposed = 0;  ///< 1: the second tool presses the face opposite the first one's
+  std::uint8_t reserved[1]{};
+  float thickness = 0;  ///< m, from face to face where they are opposed
 };
 static_assert(std::is_trivially_copyable_v<PairConfig>);
 

@@ -114,7 +114,7 @@ SafetyCause faultOf(const TickConfig& config, TickState& state, const DeviceRead
 
 bool sensorBelieved(const SensedForce& sensed) {
   const Vec3 f = unpack(sensed.f_D);
-  return sensed.state == SensorState::valid && f.allFinite() && f.norm() <= kStrongestObject &&
+  return hasForce(sensed.state) && f.allFinite() && f.norm() <= kStrongestObject &&
          unpack(sensed.p_DK).allFinite();
 }
 

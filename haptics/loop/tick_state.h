@@ -6,6 +6,7 @@
 #include "haptics/augmentation/augmentation.h"
 #include "haptics/contact/needle_contact.h"
 #include "haptics/contact/probe_contact.h"
+#include "haptics/modulation/estimated_reaction.h"
 #include "haptics/modulation/modulation.h"
 #include "haptics/modulation/pulse.h"
 #include "haptics/modulation/touch_augmentation.h"
@@ -47,6 +48,7 @@ struct PairState {
   std::array<TickState, 2> tools;
   TouchAugmentationState touch;
   SqueezeState squeeze;
+  EstimateState estimate;
   std::uint32_t trial = 0;
   std::uint8_t reserved[4]{};
 };

@@ -116,6 +116,8 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   for (const char* motion : {"opposed", "opposed in turn", "opposed, stroked"})
     EXPECT_LE(worstOf(lines, motion, kSlabs), 0.12) << motion;
   for (const double without : valuesOf(lines, "two_tools_none_rel_rms")) EXPECT_GE(without, 0.1);
+  EXPECT_EQ(valuesOf(lines, "estimated_force_rel_rms").size(), 6u);
+  EXPECT_LE(worst(lines, "estimated_force_rel_rms"), 0.18) << "no sensor: rates are left out";
   EXPECT_EQ(valuesOf(lines, "har_tick_hot_median").size(), 1u);
   ASSERT_EQ(valuesOf(lines, "har_tick_pushed").size(), 1u);
   EXPECT_GE(valuesOf(lines, "har_tick_pushed")[0], 0.9) << "what was timed did something";

@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -294,6 +296,50 @@ TEST(TwoFingers, SearchRollAndFeelWhatSeparateCodeComputes) {
   // Both solvers leave 1 uN in the balance; 155 mN without the second finger's part in it.
   EXPECT_LT(found.worst_N, 1e-3);
   EXPECT_LT(found.worst_depth, 1e-6);
+}
+
+/// The second finger is bare and tracked: its force is estimated, labelled, and estimated again by
+/// the guide's script.
+TEST(TwoFingers, ATrackedFingersForceIsEstimatedAndCalledSo) {
+  const Folder here;
+  const Outcome session = palpa(quickly({"palpation", "--tools", "2", "--second", "finger",
+                                         "--operator", "expert", "--seed", "2402", "--out", "A"}),
+                                here.path());
+  ASSERT_EQ(session.exit_code, 0) << session.err;
+  const std::string page = contentOf(here / "A/report.html");
+  EXPECT_TRUE(says(page, "second, estimated")) << "its curve";
+  EXPECT_TRUE(says(page, "it is tracked and has no force sensor"));
+  const Outcome replay = palpa({"replay", "A/session.palpa"}, here.path());
+  EXPECT_EQ(replay.exit_code, 0) << replay.out;
+  EXPECT_TRUE(says(replay.out, "The replay equals the record: same forces, same score"));
+  ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
+  const json laws = json::parse(contentOf(here / "ticks.laws.json"));
+  EXPECT_EQ(laws.at("estimated").at("face"), "beside");
+  const Agreement found = agreement(here / "ticks.csv", laws);
+  EXPECT_GT(found.most_N, 0.1) << "the lump presses on both";
+  EXPECT_LT(found.worst_N, 1e-3);
+  if (std::system("python3 --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "no Python (Debian: python3)";
+  const std::string run = "cd '" + here.path().string() + "' && python3 '" + PALPA_SOURCE_DIR +
+                          "/docs/check_estimate.py' ticks.csv > said.txt 2>&1";
+  ASSERT_EQ(std::system(run.c_str()), 0) << contentOf(here / "said.txt");
+  int ticks = 0;
+  double most_N = 0, worst_mN = 1e9;
+  ASSERT_EQ(
+      std::sscanf(contentOf(here / "said.txt").c_str(),
+                  "%d ticks, estimated up to %lf N, at most %lf mN", &ticks, &most_N, &worst_mN),
+      3);
+  EXPECT_GT(ticks, 50'000);
+  EXPECT_GT(most_N, 0.3);
+  EXPECT_LT(worst_mN, 1);
+}
+
+TEST(TwoFingers, ABareFingerIsASecondOne) {
+  const Folder here;
+  const Outcome alone =
+      palpa(quickly({"palpation", "--second", "finger", "--operator", "expert"}), here.path());
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_TRUE(says(alone.err, "Add --tools 2")) << alone.err;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct PalpationPage {
   std::vector<assess::PalpationSample> samples;
   assess::PalpationRules rules;
   std::vector<Picture> pictures;
+  bool estimated = false;  ///< what the second finger presses with is no sensor's
 };
 
 struct PalpationReport {

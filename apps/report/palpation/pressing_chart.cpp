@@ -13,7 +13,8 @@ constexpr double kMarksHeight = 20, kLineOfText = 13;  // px
 
 PlotPanel pressingPanel(const PalpationPage& page, bool wide) {
   PlotPanel panel{"Force", "N", {}, 1, 0, wide ? 190.0 : 170.0};
-  PlotCurve first{"force", "pressing", {}, true}, second{"second", "beside", {}, false};
+  PlotCurve first{"force", "pressing", {}, true},
+      second{page.estimated ? "second, estimated" : "second", "beside", {}, false};
   double high = std::max(page.rules.too_hard, page.rules.levels.back());
   for (const assess::PalpationSample& sample : page.samples) {
     (sample.tool == 0 ? first : second).points.push_back({sample.t_s, sample.f_n});
@@ -85,11 +86,12 @@ void writePressingChart(Html& html, const PalpationPage& page) {
   drawPressing(html, page, kWide);
   drawPressing(html, page, kNarrow);
   const assess::PalpationRules& rules = page.rules;
-  html.element("figcaption", "Lines: light from " + trimmed(rules.levels[0], 2) +
-                                 " N, medium from " + trimmed(rules.levels[1], 2) +
-                                 " N, deep from " + trimmed(rules.levels[2], 2) +
-                                 " N, too hard above " + trimmed(rules.too_hard, 2) +
-                                 " N. Numbers on top: the marks, when they were made.");
+  html.element("figcaption",
+               "Lines: light from " + trimmed(rules.levels[0], 2) + " N, medium from " +
+                   trimmed(rules.levels[1], 2) + " N, deep from " + trimmed(rules.levels[2], 2) +
+                   " N, too hard above " + trimmed(rules.too_hard, 2) +
+                   " N. Numbers on top: the marks, when they were made." +
+                   (page.estimated ? " The second finger's force is estimated." : ""));
 }
 
 }  // namespace palpa::report
