@@ -111,8 +111,7 @@ void addPalpation(CLI::App& program) {
           "--second",
           [options](const std::string& what) { options->tracked_finger = what == "finger"; },
           "What the second finger is on: a device with a force sensor (default), or nothing: a "
-          "bare "
-          "finger that is tracked, whose force is estimated")
+          "bare finger that is tracked, whose force is estimated")
       ->check(oneOf({"device", "finger"}))
       ->type_name("device|finger");
   addAugmentArgument(*command, *options);
