@@ -33,7 +33,7 @@ struct SteadiedRun {
 };
 
 SteadiedRun trembling(const SteadiedCase& one, bool steadied) {
-  constexpr double kSeconds = 30, kTick = 1e-3;
+  constexpr double kSeconds = 30;
   RandomStream ways(one.seed, "bench.steadied_ways");
   twin::LedTip way(Vec3::Zero());
   while (way.duration() < kSeconds)
@@ -45,14 +45,14 @@ SteadiedRun trembling(const SteadiedCase& one, bool steadied) {
   haptics::AugmentationInput in;
   Vec3 before = Vec3::Zero();
   SteadiedRun run;
-  for (int k = 0; k < static_cast<int>(kSeconds / kTick); ++k) {
+  for (int k = 0; k < static_cast<int>(kSeconds / kPhantomTick); ++k) {
     const Vec3 read = unpack(device.encoderPose().p);
     in.dp = read - before;
     before = read;
     const Vec3 f_d = steadied ? haptics::augment(plan, in, &state).f : Vec3(Vec3::Zero());
     run.largest_N = std::max(run.largest_N, f_d.norm());
-    const Vec3 wanted = way.at(k * kTick) + tremor.next(kTick);
-    device.advance(kTick, makePose(Mat3::Identity(), wanted), one.grip, f_d);
+    const Vec3 wanted = way.at(k * kPhantomTick) + tremor.next(kPhantomTick);
+    device.advance(kPhantomTick, makePose(Mat3::Identity(), wanted), one.grip, f_d);
     run.x.push_back(device.truePose().translation().x());
   }
   return run;
