@@ -104,6 +104,7 @@ class LedNeedle {
                           .plan = {TrialPlan{}},
                           .places = {},
                           .augmentations = {},
+                          .fixtures = {},
                           .answers = {2, 4, 8},
                           .said = {}};
     task_ = std::make_unique<NeedleTask>(setup, bus_, channels_, *executive_);
