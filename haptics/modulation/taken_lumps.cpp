@@ -86,8 +86,10 @@ Vec3 takenOf(const StiffnessModulation& surface, const TouchAboveLumps& tool, do
              DahlState* friction) noexcept {
   const Vec3 up = Vec3::UnitZ();
   const double sensed = tool.f_r.z(), added = std::max(sensed - H, 0.0);
-  const Vec3 drag = dragOf(surface.friction, slidOver(tool.dp, up, sensed), up, H, dt, friction),
-             across = -drag - (tool.f_r - sensed * up);
+  const Vec3 drag = dragOf(surface.friction, slidOver(tool.dp, up, sensed), up, H, dt, friction);
+  Vec3 across = -drag - (tool.f_r - sensed * up);
+  // A tip that leaps has no friction that a law could tell: no more than is sensed is put there.
+  if (const double most = tool.f_r.norm(), size = across.norm(); size > most) across *= most / size;
   return (H - sensed) * up + std::min(1.0, added / (kFullFrom * sensed)) * across;
 }
 

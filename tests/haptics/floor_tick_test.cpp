@@ -201,7 +201,7 @@ struct EverythingOn {
       Augmentation& a = plan.each[plan.count++];
       a.kind = kind;
       a.amplitude = kind == AugmentationKind::fixture ? 100 : 0.5;
-      a.reach = 5 * 60e-6;
+      a.reach = kind == AugmentationKind::fixture ? 0 : 5 * 60e-6;  // its line is far off
       a.tau_s = 0.05;
       a.wavelength = 1e-3;
       a.trigger = kind == AugmentationKind::pulse    ? Augmentation::Trigger::rise
