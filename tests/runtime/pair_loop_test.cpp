@@ -34,7 +34,7 @@ struct HeldThing {
                                        ChannelSensor({}, TimeMode::real)};
   std::array<ForceSensing, 2> sensing{ForceSensing(sensors[0], {}), ForceSensing(sensors[1], {})};
   HapticPairActivity haptic{
-      bus, {{{devices[0], sensing[0]}, {devices[1], sensing[1]}}}, squeezing()};
+      bus, {{{devices[0], &sensing[0]}, {devices[1], &sensing[1]}}}, squeezing()};
   std::array<bool, 2> silent{false, false};
   std::uint64_t sequence = 0;
   int allocations = 0;
