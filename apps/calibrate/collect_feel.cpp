@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "apps/calibrate/learnt_object.h"
 #include "apps/calibrate/recorded.h"
 #include "calibration/touch/contact_laws.h"
 #include "haptics/sensors/wrench_filter.h"
@@ -112,8 +113,11 @@ class Feeling {
   Pose X_PW_;
 };
 
+struct FeltTimes {
+  double asked = -1, ended = 0;  ///< s of the rig's clock
+};
 /// While the button is held, from where the sensor's word can be used.
-FeltSamples collectFelt(const Scene& scene, const Request& request) {
+FeltSamples collectFelt(const Scene& scene, const Request& request, FeltTimes* times = nullptr) {
   scene.guide.ask(request.words);
   scene.rig.ask(request);
   const auto wanted = static_cast<std::size_t>(request.seconds * runtime::kFeltRate_Hz);
@@ -124,6 +128,8 @@ FeltSamples collectFelt(const Scene& scene, const Request& request) {
   while (felt.samples.size() < wanted) {
     const RigMoment moment = need(scene.rig, "calibration of a sample");
     if (begun < 0) begun = moment.t;
+    if (times) times->ended = moment.t;
+    if (times && times->asked < 0) times->asked = moment.t;
     if (!moment.reading) continue;
     const std::optional<FeltSample> sample = feeling.feel(moment);
     if (!pressed(*moment.reading)) {
@@ -183,6 +189,60 @@ FeltSamples collectStrokes(const Scene& scene, const std::string& sample, double
       "fast, for " +
       std::to_string(static_cast<int>(seconds)) + " s";
   return collectFelt(scene, request);
+}
+
+namespace {
+
+/// In rows, not quite even, as hands go.
+std::vector<Eigen::Vector2d> rowsOver(const calibration::MappedArea& area) {
+  constexpr int kEach = 7;
+  std::vector<Eigen::Vector2d> places;
+  const Eigen::Vector2d step = (area.high - area.low) / kEach;
+  for (int j = 0; j < kEach; ++j)
+    for (int i = 0; i < kEach; ++i) {
+      const int along = j % 2 == 0 ? i : kEach - 1 - i;
+      places.push_back(area.low + step.cwiseProduct(Eigen::Vector2d(along + 0.5, j + 0.5)));
+    }
+  return places;
+}
+
+Request touchAt(const Scene& scene, const std::string& sample, const Eigen::Vector2d& p) {
+  constexpr double kDeep = 4.5e-3, kSlide = 0.01, kLongest_s = 5;
+  Request request;
+  request.what = Request::What::palpate;
+  request.sample = sample;
+  request.depth = kDeep;
+  request.reach = kSlide;
+  request.p_W = scene.station.sample->X_WP * Vec3(p.x(), p.y(), 0);
+  request.seconds = kLongest_s;
+  request.words = "Hold the button and press at " + quantity(1e3 * p.x(), "mm") + " across, " +
+                  quantity(1e3 * p.y(), "mm") +
+                  " along from the middle, 4 mm deep; hold for a moment, slide 10 mm, lift";
+  return request;
+}
+
+}  // namespace
+
+ObjectTouches collectObject(const Scene& scene, const std::string& sample,
+                            const calibration::MappedArea& area, double seconds) {
+  constexpr int kAdvised = 6;  // places at a time
+  requireSample(scene.station);
+  ObjectTouches all;
+  FeltTimes times;
+  std::vector<Eigen::Vector2d> next = rowsOver(area);
+  for (;;) {
+    for (const Eigen::Vector2d& p : next) {
+      all.touches.push_back(collectFelt(scene, touchAt(scene, sample, p), &times));
+      all.seconds = times.ended - times.asked;
+      scene.guide.progress("Seconds", static_cast<int>(std::min(all.seconds, seconds)),
+                           static_cast<int>(seconds), "");
+      if (all.seconds >= seconds) return all;
+    }
+    const calibration::MapVerdict verdict =
+        judge(learnObject(all.touches).stiffness, area, kAdvised);
+    if (verdict.sure) return all;
+    next = verdict.next;
+  }
 }
 
 FeltSamples readFelt(const std::filesystem::path& file) {

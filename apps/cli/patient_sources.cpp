@@ -16,6 +16,7 @@
 #include "apps/cli/values.h"
 #include "apps/os/file_access.h"
 #include "apps/station/assets.h"
+#include "apps/twin/phantom/layered_phantom.h"
 #include "apps/twin/phantom/phantom_file.h"
 
 namespace palpa::cli {
@@ -189,11 +190,15 @@ void solve(const SolveOptions& o) {
       o.out.empty() ? std::filesystem::path(file).replace_extension(".tables.json")
                     : std::filesystem::path(o.out);
   const bool terminal = os::errorsGoToTerminal();
-  twin::solvePhantoms(file, out, [&](const std::string& name, int done, int of) {
+  const auto progress = [&](const std::string& name, int done, int of) {
     if (terminal || done == of)
       std::fprintf(stderr, "%s%s: %d of %d%s", terminal ? "\r" : "", name.c_str(), done, of,
                    done == of ? "\n" : "");
-  });
+  };
+  if (twin::isLayered(file))
+    twin::solveLayered(file, out, progress);
+  else
+    twin::solvePhantoms(file, out, progress);
   std::printf("Written: %s\n", out.c_str());
 }
 
@@ -208,7 +213,9 @@ void addPhantom(CLI::App& program) {
                                               "file, by finite elements (a few minutes each)");
   command->footer(
       "Examples:\n  palpa phantom solve                          the shipped mock-ups again\n  "
-      "palpa phantom solve --file mine.json --out mine.tables.json");
+      "palpa phantom solve --file mine.json --out mine.tables.json\n"
+      "  palpa phantom solve --file assets/phantoms/layered.json\n      blocks with layers, cores "
+      "and ribs: an hour");
   const auto o = std::make_shared<SolveOptions>();
   command->add_option("--file", o->file, "Phantoms (default: assets/phantoms/mockups.json)")
       ->type_name("FILE");

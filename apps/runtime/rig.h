@@ -35,6 +35,8 @@ struct Request {
     /// `depth`
     press,
     stroke,  ///< stroke over it, to and fro, as far as `reach`, at different depths and speeds
+    /// Once: press it as deep as `depth`, hold, ease off a little, slide as far as `reach`, lift
+    palpate,
   };
   What what = What::show_board;
   std::string words;

@@ -7,13 +7,6 @@
 namespace palpa::twin {
 namespace {
 
-/// Catmull-Rom weights of the four cells around.
-std::array<double, 4> weights(double t) {
-  const double t2 = t * t, t3 = t2 * t;
-  return {0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t),
-          0.5 * (t3 - t2)};
-}
-
 using Figures = Eigen::Array4d;  // f_out, f_up, lump_out, lump_up
 const Figures kOddAbout{-1, 1, -1, 1};
 
@@ -29,12 +22,18 @@ Figures scaled(const PhantomTable& table, int away, int depth) {
 
 }  // namespace
 
+std::array<double, 4> cubicWeights(double t) {
+  const double t2 = t * t, t3 = t2 * t;
+  return {0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t),
+          0.5 * (t3 - t2)};
+}
+
 PhantomCell PhantomTable::at(double away, double depth) const {
   if (!(depth > 0)) return {};
   const double a = std::min(std::abs(away) / away_step, aways - 1.0),
                d = std::clamp(depth / depth_step, 1.0, static_cast<double>(depths));
   const int a0 = static_cast<int>(a), d0 = static_cast<int>(d);
-  const auto wa = weights(a - a0), wd = weights(d - d0);
+  const auto wa = cubicWeights(a - a0), wd = cubicWeights(d - d0);
   Figures sum = Figures::Zero();
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) sum += wa[i] * wd[j] * scaled(*this, a0 + i - 1, d0 + j - 1);

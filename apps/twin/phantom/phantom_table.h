@@ -8,6 +8,9 @@
 
 namespace palpa::twin {
 
+/// Catmull-Rom's weights of the four cells around, t of the way from the second to the third.
+std::array<double, 4> cubicWeights(double t);
+
 /// One place of a tool in the table: what the phantom does there.
 struct PhantomCell {
   double f_out = 0, f_up = 0;  ///< N, on the tool: away from the lump, and up
