@@ -206,8 +206,15 @@ std::vector<Eigen::Vector2d> rowsOver(const calibration::MappedArea& area) {
   return places;
 }
 
-Request touchAt(const Scene& scene, const std::string& sample, const Eigen::Vector2d& p) {
-  constexpr double kDeep = 4.5e-3, kSlide = 0.01, kLongest_s = 5;
+/// A few of the first touches are held long: nothing else tells what relaxes slowly.
+bool heldLong(std::size_t touch) {
+  constexpr std::size_t kLongOnes = 4, kEvery = 8;
+  return touch % kEvery == kEvery / 2 && touch < kLongOnes * kEvery;
+}
+
+Request touchAt(const Scene& scene, const std::string& sample, const Eigen::Vector2d& p,
+                bool held_long) {
+  constexpr double kDeep = 4.5e-3, kSlide = 0.01, kLongest_s = 8, kHeld_s = 3;
   Request request;
   request.what = Request::What::palpate;
   request.sample = sample;
@@ -215,9 +222,10 @@ Request touchAt(const Scene& scene, const std::string& sample, const Eigen::Vect
   request.reach = kSlide;
   request.p_W = scene.station.sample->X_WP * Vec3(p.x(), p.y(), 0);
   request.seconds = kLongest_s;
+  request.holds = held_long ? kHeld_s : 0;
   request.words = "Hold the button and press at " + quantity(1e3 * p.x(), "mm") + " across, " +
-                  quantity(1e3 * p.y(), "mm") +
-                  " along from the middle, 4 mm deep; hold for a moment, slide 10 mm, lift";
+                  quantity(1e3 * p.y(), "mm") + " along from the middle, 4 mm deep; " +
+                  (held_long ? "hold for 3 s" : "hold for a moment") + ", slide 10 mm, lift";
   return request;
 }
 
@@ -232,7 +240,8 @@ ObjectTouches collectObject(const Scene& scene, const std::string& sample,
   std::vector<Eigen::Vector2d> next = rowsOver(area);
   for (;;) {
     for (const Eigen::Vector2d& p : next) {
-      all.touches.push_back(collectFelt(scene, touchAt(scene, sample, p), &times));
+      all.touches.push_back(
+          collectFelt(scene, touchAt(scene, sample, p, heldLong(all.touches.size())), &times));
       all.seconds = times.ended - times.asked;
       scene.guide.progress("Seconds", static_cast<int>(std::min(all.seconds, seconds)),
                            static_cast<int>(seconds), "");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "anatomy/base/error.h"
 
@@ -17,9 +19,8 @@ constexpr double kSlid = 1.5e-3;         // m: beyond, it truly slides
 constexpr double kSlideSpeed = 5e-3;     // m/s
 constexpr double kSlidesUnder_N = 0.08;  // with less the ratio is noise
 constexpr double kApart_s = 0.012;       // between readings that are told apart
-constexpr std::size_t kHeldOnes = 16;    // presses that relaxation is learnt from
 constexpr double kLeastRatioSd = 0.02;   // of ln friction: no slide is like the next
-constexpr std::size_t kFewestRatios = 6;
+constexpr std::size_t kFewestReadings = 6;
 
 /// The part of a touch that is a press: from its first sample until it goes sideways.
 FeltSamples pressOf(const FeltSamples& touch) {
@@ -45,75 +46,87 @@ Vector2d placeOf(const FeltSamples& press) {
   return weight > 0 ? Vector2d(sum / weight) : Vector2d(Vector2d::Zero());
 }
 
-/// Of a touch's slide: what rubs against its way, by what presses.
-std::optional<TouchedPlace> rubbedIn(const FeltSamples& touch) {
+/// A touch's slide: at each reading what rubs against its way, what presses, and its speed.
+struct Slide {
+  Vector2d middle = Vector2d::Zero();
+  Eigen::VectorXd drag, load, speed;  ///< N, N, m/s
+};
+
+std::optional<Slide> slideIn(const FeltSamples& touch) {
   const std::vector<FeltSample>& samples = touch.samples;
   const auto every = static_cast<std::size_t>(std::max(1.0, std::round(kApart_s / touch.dt)));
   const std::size_t begins = pressOf(touch).samples.size();
-  std::vector<double> ratios;
-  Vector2d middle = Vector2d::Zero();
+  std::vector<Eigen::Vector3d> readings;
+  Slide slide;
   for (std::size_t i = begins + every; i < samples.size(); i += every) {
     const Vector2d way = (samples[i].p_P - samples[i - every].p_P).head<2>();
     const double speed = way.norm() / (static_cast<double>(every) * touch.dt),
                  gone = (samples[i].p_P - samples[begins].p_P).head<2>().norm();
     if (speed < kSlideSpeed || gone < kSlid || samples[i].f_P.z() < kSlidesUnder_N) continue;
-    ratios.push_back(-samples[i].f_P.head<2>().dot(way.normalized()) / samples[i].f_P.z());
-    middle += samples[i].p_P.head<2>();
+    readings.emplace_back(-samples[i].f_P.head<2>().dot(way.normalized()), samples[i].f_P.z(),
+                          speed);
+    slide.middle += samples[i].p_P.head<2>();
   }
-  if (ratios.size() < kFewestRatios) return std::nullopt;
-  const auto n = static_cast<double>(ratios.size());
-  double mean = 0, square = 0;
-  for (const double r : ratios) mean += r / n;
-  for (const double r : ratios) square += (r - mean) * (r - mean) / (n - 1);
-  if (!(mean > 0)) return std::nullopt;
-  return TouchedPlace{middle / n, std::log(mean),
-                      std::hypot(std::sqrt(square / n) / mean, kLeastRatioSd)};
+  if (readings.size() < kFewestReadings) return std::nullopt;
+  const auto n = static_cast<Eigen::Index>(readings.size());
+  slide.middle /= static_cast<double>(n);
+  const Eigen::Map<const Eigen::Matrix3Xd> all(readings.front().data(), 3, n);
+  slide.drag = all.row(0);
+  slide.load = all.row(1);
+  slide.speed = all.row(2);
+  return slide;
 }
 
-/// The ones that were held longest, in their order.
-std::vector<std::vector<calibration::PressSample>> heldOnes(
-    const std::vector<std::vector<calibration::PressSample>>& presses) {
-  std::vector<std::size_t> order(presses.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return presses[a].size() > presses[b].size();
-  });
-  order.resize(std::min(order.size(), kHeldOnes));
-  std::vector<std::vector<calibration::PressSample>> held;
-  for (const std::size_t i : order) held.push_back(presses[i]);
-  return held;
+/// B of  drag = mu load + B speed,  the same in every slide, each with its own mu: least squares.
+double viscousIn(const std::vector<Slide>& slides) {
+  double drags = 0, speeds = 0;
+  for (const Slide& slide : slides) {  // what mu cannot explain of either
+    const Eigen::VectorXd speed =
+        slide.speed - slide.load * (slide.load.dot(slide.speed) / slide.load.squaredNorm());
+    drags += speed.dot(slide.drag);
+    speeds += speed.squaredNorm();
+  }
+  return speeds > 0 ? std::max(drags / speeds, 0.0) : 0;
+}
+
+std::optional<TouchedPlace> rubbedIn(const Slide& slide, double viscous) {
+  const Eigen::VectorXd rubs = slide.drag - viscous * slide.speed;
+  const double squares = slide.load.squaredNorm(), mu = slide.load.dot(rubs) / squares;
+  if (!(mu > 0)) return std::nullopt;
+  const double left =
+      (rubs - mu * slide.load).squaredNorm() / static_cast<double>(slide.load.size() - 1);
+  return TouchedPlace{slide.middle, std::log(mu),
+                      std::hypot(std::sqrt(left / squares) / mu, kLeastRatioSd)};
 }
 
 }  // namespace
 
 LearntObject learnObject(const std::vector<FeltSamples>& touches) {
-  std::vector<std::vector<calibration::PressSample>> presses;
-  std::vector<Vector2d> places;
-  std::vector<TouchedPlace> stiff, rubs;
+  if (touches.empty()) throw Error("has no touches", "the object", "Press it here and there");
+  std::vector<calibration::Press> presses;
+  std::vector<Slide> slides;
   for (const FeltSamples& touch : touches) {
     const FeltSamples press = pressOf(touch);
-    presses.push_back(pressesOf(press));
-    places.push_back(placeOf(press));
-    if (const std::optional<TouchedPlace> rubbed = rubbedIn(touch)) rubs.push_back(*rubbed);
+    presses.push_back({placeOf(press), pressesOf(press)});
+    if (std::optional<Slide> slide = slideIn(touch)) slides.push_back(std::move(*slide));
   }
-  if (touches.empty()) throw Error("has no touches", "the object", "Press it here and there");
-  const double dt = touches.front().dt;
-  const calibration::FoundRelaxation relaxation =
-      calibration::identifyRelaxation(heldOnes(presses), dt);
-  std::string why;
-  for (std::size_t i = 0; i < presses.size(); ++i) {
-    try {
-      stiff.push_back(stiffnessOf(
-          calibration::identifyElastic(presses[i], dt, relaxation.law, kLearntDepth), places[i]));
-    } catch (const Error& e) {
-      why = e.what();
-    }
-  }
+  const calibration::PressedThing pressed =
+      calibration::identifyPresses(presses, touches.front().dt, kLearntDepth);
+  std::vector<TouchedPlace> stiff, rubs;
+  for (std::size_t i = 0; i < presses.size(); ++i)
+    if (pressed.presses[i]) stiff.push_back(stiffnessOf(*pressed.presses[i], presses[i].at));
   if (stiff.size() * 2 < presses.size())
-    throw Error("most touches tell nothing, such as: " + why, "the object",
+    throw Error("most touches tell nothing, such as: " + pressed.why, "the object",
                 "Press 3 to 5 mm deep, straight down, and hold for a moment");
-  return {relaxation, calibration::ObjectMap(stiff, relaxation.shared_sd),
-          calibration::ObjectMap(rubs), static_cast<int>(stiff.size()),
+  const double viscous = viscousIn(slides);
+  for (const Slide& slide : slides)
+    if (const std::optional<TouchedPlace> rubbed = rubbedIn(slide, viscous))
+      rubs.push_back(*rubbed);
+  return {pressed,
+          calibration::ObjectMap(stiff, pressed.shared_sd),
+          calibration::ObjectMap(rubs),
+          viscous,
+          static_cast<int>(stiff.size()),
           static_cast<int>(presses.size() - stiff.size())};
 }
 

@@ -19,10 +19,12 @@ struct ObjectTouches {
 };
 
 struct LearntObject {
-  calibration::FoundRelaxation relaxation;
+  calibration::PressedThing pressed;
   calibration::ObjectMap stiffness;  ///< N/m, secant at kLearntDepth, pressed slowly
-  calibration::ObjectMap friction;   ///< tangential by normal force while it slides
-  int used = 0, left_out = 0;        ///< touches
+  /// What rubs, less what only speed makes, by what presses while it slides
+  calibration::ObjectMap friction;
+  double viscous = 0;          ///< N s/m, the same all over
+  int used = 0, left_out = 0;  ///< touches
 };
 
 /// Throws Error for touches that tell too little.

@@ -17,6 +17,7 @@ constexpr std::size_t kJudgedEvery = 8;  // touch
 constexpr double kOffAtOthers_percent = 10;
 constexpr double kUnknown_percent = 10;  // of the area
 constexpr double kMostSd = 0.05;         // of ln: 10 % to either side at 95 %
+constexpr double kMostShared = 0.02;     // of ln, by what all touches have in common
 
 /// Every eighth touch to judge by, the others to learn from.
 struct Parted {
@@ -98,7 +99,8 @@ Result objectResult(const ObjectTouches& samples, const MappedArea& area, const 
       {"step_m", {area.step}},
       {"relaxation_time_s",
        {calibration::Relaxation::kTimes.begin(), calibration::Relaxation::kTimes.end()}},
-      {"relaxation_share", {found.relaxation.law.share.begin(), found.relaxation.law.share.end()}}};
+      {"relaxation_share",
+       {found.pressed.relaxation.share.begin(), found.pressed.relaxation.share.end()}}};
   addMap(r.file, "stiffness_N_per_m", found.stiffness, area);
   addMap(r.file, "friction", found.friction, area);
   r.file.covariance.resize(0, 0);
@@ -120,6 +122,8 @@ Result objectResult(const ObjectTouches& samples, const MappedArea& area, const 
     r.advice.push_back("It is known least at " + quantity(1e3 * verdict.next.front().x(), "mm") +
                        " across, " + quantity(1e3 * verdict.next.front().y(), "mm") +
                        " along from the middle: touch it there.");
+  if (found.pressed.shared_sd > kMostShared)
+    r.advice.push_back("Hold a few touches for 3 s: it is not known what it loses slowly.");
   r.advice.push_back("Redo it when the object was moved on its plate, or after some months.");
   return r;
 }

@@ -46,6 +46,7 @@ struct Request {
   double seconds = 0;           ///< how long it will be watched; 0: until the button
   std::string sample = {};      ///< which one lies there; empty: the plain one
   double depth = 0, reach = 0;  ///< m
+  double holds = 0;             ///< s, at least, of a palpation
 };
 /// of the readings while a sample is pressed or stroked
 inline constexpr double kFeltRate_Hz = 1000;

@@ -70,7 +70,9 @@ LedTip SetupMotion::touchOnce(const Vec3& place) {
   const Vec3 eased = place - (1 - kLetGo) * deep * Vec3::UnitZ(),
              beyond = eased + request_.reach * Vec3(std::cos(way), std::sin(way), 0);
   LedTip tip(place + kOverSample * Vec3::UnitZ());
-  tip.go(place - deep * Vec3::UnitZ(), choices_.uniform(0.15, 0.5), choices_.uniform(0.05, 0.5))
+  const double down = choices_.uniform(0.15, 0.5),
+               hold = std::max(choices_.uniform(0.05, 0.5), request_.holds);
+  tip.go(place - deep * Vec3::UnitZ(), down, hold)
       .go(eased, kEase_s)
       .go(beyond, choices_.uniform(0.3, 0.5))
       .go(beyond + (deep + kOverSample) * Vec3::UnitZ(), kLift_s);

@@ -12,11 +12,13 @@
 namespace palpa::twin {
 namespace {
 
-/// A cell's force over depth^1.5, which goes on evenly to no depth at all; below y = 0 the mirror
-/// image.
+/// A cell's force over depth^1.5; below y = 0 the mirror image. Toward no depth at all it goes on
+/// straight, as it does between the first two: no contact has a kink.
 Vec3 scaledForce(const SurfaceTable& table, int x, int y, int depth) {
+  if (depth < 1)
+    return (2 - depth) * scaledForce(table, x, y, 1) - (1 - depth) * scaledForce(table, x, y, 2);
   const int i = std::clamp(x, -table.sides, table.sides) + table.sides,
-            j = std::min(std::abs(y), table.sides), d = std::clamp(depth, 1, table.depths);
+            j = std::min(std::abs(y), table.sides), d = std::min(depth, table.depths);
   const int columns = 2 * table.sides + 1;
   const Vec3 f = table.cells[static_cast<std::size_t>((j * columns + i) * table.depths + d - 1)];
   return Vec3(f.x(), y < 0 ? -f.y() : f.y(), f.z()) / std::pow(d * table.depth_step, 1.5);
@@ -39,7 +41,7 @@ Vec3 SurfaceTable::at(const Eigen::Vector2d& p, double depth) const {
   if (!(depth > 0)) return Vec3::Zero();
   const double last = sides;
   const Between x(p.x() / step, -last, last), y(p.y() / step, -last, last),
-      d(depth / depth_step, 1, depths);
+      d(depth / depth_step, 0, depths);
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
