@@ -118,6 +118,7 @@ LearntObject learnObject(const std::vector<FeltSamples>& touches) {
   if (stiff.size() * 2 < presses.size())
     throw Error("most touches tell nothing, such as: " + pressed.why, "the object",
                 "Press 3 to 5 mm deep, straight down, and hold for a moment");
+  for (Slide& slide : slides) slide.load.array() -= pressed.offset_N;
   const double viscous = viscousIn(slides);
   for (const Slide& slide : slides)
     if (const std::optional<TouchedPlace> rubbed = rubbedIn(slide, viscous))

@@ -15,17 +15,22 @@ constexpr double kApart_s = 0.012;   // between samples that count: noise that t
 constexpr double kEvery_s = 0.004;   // between samples that the law follows
 constexpr double kLightest_N = 0.1;  // of the largest force
 constexpr double kBegins = 0.03;     // of the largest force: contact, roughly
-constexpr double kBefore = 5e-4;     // m: so far above it, what is felt counts, too
+constexpr double kBefore = 1.5e-3;   // m: so far above it, what is felt counts, too
+// What the filter leaves [chosen]: of a place by the encoders' steps, m, which shift a whole press,
+// and many presses alike; of the sensor's noise, N
+constexpr double kPlaceNoise = 3e-5, kForceNoise_N = 2e-3;
+constexpr double kNear = 3e-4;  // m: nearer to first contact the slope is taken as there
 constexpr std::size_t kFewestCounted = 10, kFewestPresses = 3;
 constexpr double kLeastNoise_N = 1e-3, kFirstNoise_N = 4e-3;
 // What is known before a press, standard deviations: b and c [chosen: twice as stiff at twice the
 // depth is a lot], e, a share; the surface, mm and mm over 50 mm; its unevenness, mm, at first and
 // at least
-constexpr double kB = 0.5, kC = 0.25, kE = 0.1, kShare = 0.3, kSurface = 2, kSlope = 2,
-                 kUnevenFirst = 0.1, kUnevenLeast = 0.02, kSlopeOver = 0.05;
+constexpr double kB = 0.5, kC = 0.25, kE = 0.3, kShare = 0.3, kSurface = 2, kSlope = 2,
+                 kUnevenFirst = 0.1, kUnevenLeast = 0.02, kSlopeOver = 0.05, kOffset = 2;
+constexpr double kOffset_N = 0.01;  // unit
 
 constexpr Eigen::Index kOwn = 4, kShares = 5, kSurfaceAt = kShares, kBendAt = kSurfaceAt + 3,
-                       kShared = kBendAt + 1;
+                       kOffsetAt = kBendAt + 1, kShared = kOffsetAt + 1;
 using Own = Eigen::Vector4d;  ///< ln f_d, b, c, x0 in mm: of like size
 using Shared = Eigen::Matrix<double, kShared, 1>;
 using SharedSquare = Eigen::Matrix<double, kShared, kShared>;
@@ -47,7 +52,8 @@ struct OnePress {
   std::vector<double> x, f;  ///< m, N, `dt` apart
   double dt = 0;
   std::vector<std::size_t> counted;
-  Eigen::Vector3d surface;  ///< surfaceAt
+  std::vector<double> weight;  ///< of those
+  Eigen::Vector3d surface;     ///< surfaceAt
   Own own = Own::Zero();
   double depth = 0, noise_N = kFirstNoise_N;
   MatrixX covariance = MatrixX::Zero(kOwn, kOwn);
@@ -70,7 +76,8 @@ struct OnePress {
     VectorX left(n + 3);
     for (std::size_t i = 0; i < counted.size(); ++i)
       left[static_cast<Eigen::Index>(i)] =
-          f[counted[i]] - std::max(told[counted[i]], 0.0);  // it does not pull
+          weight[i] * (f[counted[i]] - kOffset_N * shared[kOffsetAt] -
+                       std::max(told[counted[i]], 0.0));  // it does not pull
     const double x0_mm = surface.dot(shared.segment<3>(kSurfaceAt));
     left.tail<3>() = noise_N * Eigen::Vector3d(at[1] / kB, at[2] / kC, (at[3] - x0_mm) / uneven_mm);
     return left;
@@ -113,6 +120,8 @@ OnePress onePressOf(const Press& press, double dt, double depth) {
   for (std::size_t i = 0; i < one.x.size(); i += apart) {
     if (one.x[i] < begins - kBefore) continue;
     one.counted.push_back(i);
+    const double slope = 1.5 * std::max(one.f[i], 0.0) / std::max(one.x[i] - begins, kNear);
+    one.weight.push_back(1 / std::hypot(1, slope * kPlaceNoise / kForceNoise_N));
     in_contact += one.x[i] > begins;
   }
   if (in_contact < kFewestCounted)
@@ -131,7 +140,7 @@ struct SharedProblem {
   explicit SharedProblem(const Shared& at) {
     Shared known;
     known << Shared::Constant(1 / kShare).head<kShares>(), 1 / kSurface, 1 / kSlope, 1 / kSlope,
-        1 / kE;
+        1 / kE, 1 / kOffset;
     N.diagonal() = known.cwiseAbs2();
     g = known.cwiseAbs2().cwiseProduct(at);
   }
@@ -183,7 +192,8 @@ struct Together {
     }
     const Eigen::LDLT<SharedSquare> normal(problem.N);
     const Shared follows = problem.follows / static_cast<double>(all.size());
-    shared_sd = std::sqrt(follows.dot(normal.solve(follows)));
+    const double by_place = 1.5 * kPlaceNoise / all.front().depth;  // d ln f_d = 1.5 dx / d
+    shared_sd = std::hypot(std::sqrt(follows.dot(normal.solve(follows))), by_place);
     return stepShared(-normal.solve(problem.g), &shared);
   }
   double deviation_mm() const {
@@ -202,6 +212,7 @@ struct Together {
                           .cwiseProduct(Eigen::Vector3d(1, 1 / kSlopeOver, 1 / kSlopeOver));
     thing.uneven = kMillimetre * uneven_mm;
     thing.bend = shared[kBendAt];
+    thing.offset_N = kOffset_N * shared[kOffsetAt];
     thing.shared_sd = shared_sd;
     for (const OnePress& press : all)
       thing.presses.emplace_back(ElasticPress{std::exp(press.own[0]), press.own[1], press.own[2],
@@ -240,8 +251,8 @@ TouchedPlace stiffnessOf(const ElasticPress& press, const Eigen::Vector2d& at) {
 }
 
 PressedThing identifyPresses(const std::vector<Press>& presses, double dt, double depth) {
-  constexpr int kFirstRounds = 3, kRounds = 30;
-  constexpr double kStill = 1e-4;
+  constexpr int kRounds = 30;
+  constexpr double kStill = 3e-4, kStillUneven = 0.03;
   Together together;
   std::vector<bool> tells;
   std::string why;
@@ -258,9 +269,11 @@ PressedThing identifyPresses(const std::vector<Press>& presses, double dt, doubl
     throw Error("rests on " + std::to_string(together.all.size()) + " presses" +
                     (why.empty() ? "" : "; others tell nothing: " + why),
                 kRelaxingWhere, "Press and hold at three places or more");
-  for (int round = 0; round < kRounds && (together.refine() > kStill || round < kFirstRounds);
-       ++round)
-    if (round >= kFirstRounds) together.uneven_mm = std::max(together.deviation_mm(), kUnevenLeast);
+  for (int round = 0; round < kRounds; ++round) {
+    const double moved = together.refine(), before_mm = together.uneven_mm;
+    together.uneven_mm = std::max(together.deviation_mm(), kUnevenLeast);
+    if (moved < kStill && before_mm - together.uneven_mm < kStillUneven * before_mm) break;
+  }
   PressedThing thing = together.told(depth);
   for (std::size_t k = 0; k < tells.size(); ++k)  // in the presses' order
     if (!tells[k])

@@ -50,8 +50,9 @@ struct PressedThing {
   Eigen::Vector3d surface = Eigen::Vector3d::Zero();  ///< m, m/m, m/m: x0 at p
   double uneven = 0;                                  ///< m, standard deviation from it
   double bend = 0;                                    ///< e
-  /// Of ln f_d, the same in every press: by what is not known of what they share. A map's interval
-  /// must have it on top.
+  double offset_N = 0;                                ///< what the sensor shows in the air
+  /// Of ln f_d, the same in every press: by what is not known of what they share, and by a place
+  /// that the device's steps shift alike. A map's interval must have it on top.
   double shared_sd = 0;
   std::vector<std::optional<ElasticPress>> presses;  ///< none: it tells nothing
   std::string why;                                   ///< not; of the last such

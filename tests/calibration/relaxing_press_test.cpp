@@ -109,7 +109,7 @@ TEST(RelaxingPress, PressesTellWhereTheSurfaceIsTogether) {
   EXPECT_NEAR(even.surface[0], surface[0], 5e-5);
   EXPECT_NEAR(even.surface[1], surface[1], 1e-3);
   EXPECT_NEAR(even.surface[2], surface[2], 1e-3);
-  EXPECT_LT(even.uneven, 5e-5);
+  EXPECT_LT(even.uneven, 8e-5);  // spreads are approached from above, never reached
   const PressedThing uneven =
       identifyPresses(severalPresses(30, 0.05, 0.3, noise, surface, 2e-4), kDt);
   EXPECT_NEAR(uneven.uneven, 2e-4, 1e-4);

@@ -21,8 +21,9 @@ struct SurfaceTable {
   int sides = 0, depths = 0;
   std::vector<Vec3> cells;  ///< N, on the tool: [y][x][depth], x from -sides steps to sides steps
 
-  /// Between the cells by cubic interpolation of force over depth^1.5. Beyond the last cells as
-  /// there; deeper than the last one it grows as depth^1.5. Zero at depth <= 0.
+  /// Between the cells by cubic interpolation of force over depth^1.5, which goes on straight
+  /// toward no depth. Beyond the last cells as there; deeper than the last one it grows as
+  /// depth^1.5. Zero at depth <= 0.
   Vec3 at(const Eigen::Vector2d& p, double depth) const;
   double reach() const { return sides * step; }  ///< m: |x|, |y| that are solved
 };
