@@ -55,6 +55,21 @@ struct LoopBenchOptions {
 /// With `pages` the same again while so many look on.
 void benchLoop(const LoopBenchOptions& options);
 
+struct ObjectBenchOptions {
+  int seeds = 50;  ///< stations and hands for each object
+};
+/// How true the map of an object is that is learnt by touch (`palpa calibrate object`), against
+/// what finite elements say of it. One JSON object a line. Simulated data. Throws Error.
+void benchObject(const ObjectBenchOptions& options);
+/// Of one learnt object; shares of the area, and of twenty places.
+struct ObjectFigures {
+  double within_10 = 0, friction_within_10 = 0;  ///< of the truth
+  double covered = 0;                            ///< truths in their 95 % interval
+  double touches = 0, seconds = 0;
+};
+std::vector<std::string> mappedObjects();
+ObjectFigures objectFigures(const std::string& name, std::uint64_t seed);
+
 struct MaterialBenchOptions {
   bool quick = false;  ///< without noise only, three of the mock-ups and two of the hands
 };

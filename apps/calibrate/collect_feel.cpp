@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "apps/calibrate/learnt_object.h"
 #include "apps/calibrate/recorded.h"
 #include "calibration/touch/contact_laws.h"
 #include "haptics/sensors/wrench_filter.h"
@@ -112,8 +113,11 @@ class Feeling {
   Pose X_PW_;
 };
 
+struct FeltTimes {
+  double asked = -1, ended = 0;  ///< s of the rig's clock
+};
 /// While the button is held, from where the sensor's word can be used.
-FeltSamples collectFelt(const Scene& scene, const Request& request) {
+FeltSamples collectFelt(const Scene& scene, const Request& request, FeltTimes* times = nullptr) {
   scene.guide.ask(request.words);
   scene.rig.ask(request);
   const auto wanted = static_cast<std::size_t>(request.seconds * runtime::kFeltRate_Hz);
@@ -124,6 +128,8 @@ FeltSamples collectFelt(const Scene& scene, const Request& request) {
   while (felt.samples.size() < wanted) {
     const RigMoment moment = need(scene.rig, "calibration of a sample");
     if (begun < 0) begun = moment.t;
+    if (times) times->ended = moment.t;
+    if (times && times->asked < 0) times->asked = moment.t;
     if (!moment.reading) continue;
     const std::optional<FeltSample> sample = feeling.feel(moment);
     if (!pressed(*moment.reading)) {
@@ -183,6 +189,71 @@ FeltSamples collectStrokes(const Scene& scene, const std::string& sample, double
       "fast, for " +
       std::to_string(static_cast<int>(seconds)) + " s";
   return collectFelt(scene, request);
+}
+
+namespace {
+
+/// In rows, closer together toward the rim (as Chebyshev's points): beyond the last touches nothing
+/// tells what a thing is like, and at its rim it changes most.
+std::vector<Eigen::Vector2d> rowsOver(const calibration::MappedArea& area) {
+  constexpr int kEach = 7;
+  constexpr double kLast = 1.35;  // rad: the outermost at 0.98 of the way
+  const auto at = [](int i) { return std::sin(kLast * (2.0 * i / (kEach - 1) - 1)); };
+  std::vector<Eigen::Vector2d> places;
+  const Eigen::Vector2d middle = (area.high + area.low) / 2, half = (area.high - area.low) / 2;
+  for (int j = 0; j < kEach; ++j)
+    for (int i = 0; i < kEach; ++i)
+      places.push_back(
+          middle + half.cwiseProduct(Eigen::Vector2d(at(j % 2 == 0 ? i : kEach - 1 - i), at(j))));
+  return places;
+}
+
+/// A few of the first touches are held long: nothing else tells what relaxes slowly.
+bool heldLong(std::size_t touch) {
+  constexpr std::size_t kLongOnes = 4, kEvery = 8;
+  return touch % kEvery == kEvery / 2 && touch < kLongOnes * kEvery;
+}
+
+Request touchAt(const Scene& scene, const std::string& sample, const Eigen::Vector2d& p,
+                bool held_long) {
+  constexpr double kDeep = 4.5e-3, kSlide = 0.01, kLongest_s = 8, kHeld_s = 3;
+  Request request;
+  request.what = Request::What::palpate;
+  request.sample = sample;
+  request.depth = kDeep;
+  request.reach = kSlide;
+  request.p_W = scene.station.sample->X_WP * Vec3(p.x(), p.y(), 0);
+  request.seconds = kLongest_s;
+  request.holds = held_long ? kHeld_s : 0;
+  request.words = "Hold the button and press at " + quantity(1e3 * p.x(), "mm") + " across, " +
+                  quantity(1e3 * p.y(), "mm") + " along from the middle, 4 mm deep; " +
+                  (held_long ? "hold for 3 s" : "hold for a moment") + ", slide 10 mm, lift";
+  return request;
+}
+
+}  // namespace
+
+ObjectTouches collectObject(const Scene& scene, const std::string& sample,
+                            const calibration::MappedArea& area, double seconds) {
+  constexpr int kAdvised = 6;  // places at a time
+  requireSample(scene.station);
+  ObjectTouches all;
+  FeltTimes times;
+  std::vector<Eigen::Vector2d> next = rowsOver(area);
+  for (;;) {
+    for (const Eigen::Vector2d& p : next) {
+      all.touches.push_back(
+          collectFelt(scene, touchAt(scene, sample, p, heldLong(all.touches.size())), &times));
+      all.seconds = times.ended - times.asked;
+      scene.guide.progress("Seconds", static_cast<int>(std::min(all.seconds, seconds)),
+                           static_cast<int>(seconds), "");
+      if (all.seconds >= seconds) return all;
+    }
+    const calibration::MapVerdict verdict =
+        judge(learnObject(all.touches).stiffness, area, kAdvised);
+    if (verdict.sure) return all;
+    next = verdict.next;
+  }
 }
 
 FeltSamples readFelt(const std::filesystem::path& file) {

@@ -106,11 +106,51 @@ void drawCoverage(Html& html, const Coverage& coverage) {
                "Corners counted in each part. Empty parts (dashed) leave the lens unknown there.");
 }
 
+void drawMap(Html& html, const DrawnMap& map) {
+  constexpr double kSide = 440, kDot = 2.5;  // px
+  const auto [least, most] = std::minmax_element(map.values.begin(), map.values.end());
+  const double cell_x = kSide / map.columns, cell_y = kSide / map.rows;
+  const std::string side = coordinate(kSide);
+  const auto figure = html.in("figure");
+  html.element("h3", map.title);
+  {
+    const auto svg = html.in("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                                     {"class", "coverage"},
+                                     {"viewBox", "0 0 " + side + ' ' + side},
+                                     {"width", side},
+                                     {"role", "img"},
+                                     {"aria-label", map.title + " all over the top"}});
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+      const auto column = static_cast<int>(i) % map.columns,
+                 row = map.rows - 1 - static_cast<int>(i) / map.columns;
+      const double share = (map.values[i] - *least) / std::max(*most - *least, 1e-12);
+      html.empty("rect", {{"class", map.unsure[i] ? "cell unsure" : "cell"},
+                          {"x", coordinate(cell_x * column)},
+                          {"y", coordinate(cell_y * row)},
+                          {"width", coordinate(cell_x)},
+                          {"height", coordinate(cell_y)},
+                          {"fill-opacity", trimmed(0.08 + 0.92 * share, 2)}});
+    }
+    const Eigen::Vector2d size = map.high - map.low;
+    for (const Eigen::Vector2d& touch : map.touches)
+      html.empty("circle", {{"class", "touched"},
+                            {"cx", coordinate(kSide * (touch.x() - map.low.x()) / size.x())},
+                            {"cy", coordinate(kSide * (map.high.y() - touch.y()) / size.y())},
+                            {"r", coordinate(kDot)}});
+  }
+  html.element("figcaption", "From " + quantity(*least, map.unit) + " (light) to " +
+                                 quantity(*most, map.unit) +
+                                 " (dark), seen from above; dots: touched. In dashed cells it is "
+                                 "not known within 10 %.");
+}
+
 std::string plotStyle() {
   return ".seen{fill:var(--blue)}.predicted{stroke:var(--ink,currentColor);stroke-width:1.5;fill:"
          "none}.out{stroke:var(--bad);stroke-width:2;fill:none}.end{text-anchor:end}"
          ".cell{fill:var(--blue)}.cell.none{fill:none;stroke:var(--muted);stroke-dasharray:3 "
          "3}.coverage{max-width:100%;height:auto}"
+         ".cell.unsure{stroke:var(--muted);stroke-dasharray:2 3}"
+         ".touched{fill:var(--card,#fff);stroke:var(--ink,currentColor)}"
          "header .verdict{margin-top:1.1rem}\n";
 }
 
@@ -223,6 +263,7 @@ void writeResult(Html& html, const Result& r) {
                    std::to_string(r.file.data.used) + " of " + std::to_string(r.file.data.samples) +
                    " samples used, from: " + sourceOf(r.file.data) + ".");
   if (!r.coverage.counts.empty()) drawCoverage(html, r.coverage);
+  for (const DrawnMap& map : r.maps) drawMap(html, map);
   for (const MeasuredPlot& plot : r.plots) drawPlot(html, plot);
 }
 

@@ -18,6 +18,8 @@ void drawPlot(report::Html& html, const MeasuredPlot& plot);
 /// The picture in cells, darker where more corners were seen; an empty cell is framed in dashes.
 void drawCoverage(report::Html& html, const Coverage& coverage);
 
+void drawMap(report::Html& html, const DrawnMap& map);
+
 /// Added to the page's style sheet.
 std::string plotStyle();
 

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "apps/station/calibration_file.h"
 
 namespace palpa::calibrate {
@@ -27,6 +29,16 @@ struct Coverage {
   std::vector<int> counts;
 };
 
+/// A figure all over a surface: in cells, darker where it is more; where it is not sure, dashed.
+struct DrawnMap {
+  std::string title, unit;
+  int columns = 0, rows = 0;
+  Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = Eigen::Vector2d::Zero();  ///< mm
+  std::vector<double> values;            ///< row by row, from `low`
+  std::vector<bool> unsure;              ///< of each
+  std::vector<Eigen::Vector2d> touches;  ///< mm
+};
+
 /// What a routine found: the file to keep, and the same in words and pictures.
 struct Result {
   station::CalibrationFile file;
@@ -35,6 +47,7 @@ struct Result {
   std::vector<std::string> advice;     ///< what could be better, when to redo it
   std::vector<MeasuredPlot> plots;
   Coverage coverage;
+  std::vector<DrawnMap> maps = {};
 };
 
 /// Where the data come from and who asks.

@@ -73,6 +73,18 @@ void addMaterial(CLI::App& bench) {
   material->callback([options] { bench::benchMaterial(*options); });
 }
 
+void addObject(CLI::App& bench) {
+  CLI::App* object =
+      bench.add_subcommand("object",
+                           "How true a map of stiffness is that is learnt by touch, and whether it "
+                           "knows its error (simulated objects)");
+  object->footer("Example:\n  palpa bench object > object.jsonl\n  palpa bench object --seeds 2");
+  const auto options = std::make_shared<bench::ObjectBenchOptions>();
+  object->add_option("--seeds", options->seeds, "Simulated hands for each object (default 50)")
+      ->check(inRange(1, 10'000));
+  object->callback([options] { bench::benchObject(*options); });
+}
+
 void addRecordsBench(CLI::App& bench) {
   CLI::App* records = bench.add_subcommand(
       "records", "Time and memory of a cohort's page and of an export (simulated trials)");
@@ -243,6 +255,7 @@ void addBench(CLI::App& program) {
   addHaptics(*bench);
   addLoop(*bench);
   addMaterial(*bench);
+  addObject(*bench);
   addRecordsBench(*bench);
   addRenderBench(*bench);
   addSession(*bench);

@@ -5,6 +5,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/nearest_word.h"
 #include "apps/calibrate/collect.h"
+#include "apps/calibrate/learnt_object.h"
 #include "apps/calibrate/recorded.h"
 #include "apps/calibrate/results.h"
 #include "apps/cli/values.h"
@@ -232,6 +233,8 @@ Result fromFiles(const CalibrateOptions& o, const station::Station& station, con
     return inclusionResult(
         lumpSamples(o),
         station.sample ? station.sample->tip_radius : station::SoftSample{}.tip_radius, origin);
+  if (o.kind == CalibrationKind::object)
+    return objectResult(touchesIn(readFelt(o.touches)), objectArea(), origin);
   if (o.kind == CalibrationKind::texture) return textureResult(textureSamples(o), origin);
   return forceSensorResult(readStaticReadings(o.readings),
                            Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
@@ -264,6 +267,8 @@ Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& orig
     return frictionResult(collectStrokes(scene, "", kStrokeFor_s), origin);
   if (o.kind == CalibrationKind::inclusion)
     return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
+  if (o.kind == CalibrationKind::object)
+    return objectResult(collectObject(scene, o.mockup, objectArea()), objectArea(), origin);
   if (o.kind == CalibrationKind::texture)
     return textureResult(collectTexture(o, scene.guide), origin);
   throw UsageError("is not a calibration routine", "palpa calibrate " + o.name(),

@@ -61,7 +61,8 @@ class TerminalGuide final : public Guide {
 station::Station stationOf(const CalibrateOptions& o) {
   const bool of_sample = o.kind == CalibrationKind::material ||
                          o.kind == CalibrationKind::friction ||
-                         o.kind == CalibrationKind::inclusion || o.kind == CalibrationKind::texture;
+                         o.kind == CalibrationKind::inclusion ||
+                         o.kind == CalibrationKind::object || o.kind == CalibrationKind::texture;
   return station::readStation(o.station.empty()
                                   ? station::assetFile(of_sample ? "stations/palpation_bench.json"
                                                                  : "stations/virtual_bench.json")
@@ -195,6 +196,13 @@ constexpr Routine kRoutines[] = {
      "  palpa calibrate inclusion --without plain.csv --strokes strokes.csv --above above.csv "
      "--beside beside.csv --check check.csv --depth-mm 15\n"
      "Columns as for material, and lump_x_mm, ...: how far the lump has moved"},
+    {CalibrationKind::object,
+     "What a soft thing is like all over: a map of stiffness and friction, from touching it here "
+     "and there",
+     "Examples:\n  palpa calibrate object --mockup ribs\n      on the virtual palpation bench: a "
+     "simulated hand touches a block with two ribs below, where the map knows least\n"
+     "  palpa calibrate object --touches touches.csv\n"
+     "Columns as for material: touches 3 to 5 mm deep, each pressed, held, slid 10 mm, and lifted"},
     {CalibrationKind::texture,
      "What shakes a tool on a rough surface, over force and speed: from strokes",
      "Examples:\n  palpa calibrate texture --surface ribbed\n      on the virtual bench: a tool is "
@@ -249,6 +257,12 @@ void addFiles(CLI::App* command, CalibrateOptions* o) {
     command->add_option("--depth-mm", o->depth_mm, "How deep the lump's middle lies")
         ->check(inRange(1.0, 200.0, "mm"));
     command->add_option("--mockup", o->mockup, "Simulated sample on the virtual bench")
+        ->type_name("NAME");
+  }
+  if (kind == CalibrationKind::object) {
+    file("--touches", &o->touches, "Recorded touches, one after the other");
+    o->mockup = "growing skin";
+    command->add_option("--mockup", o->mockup, "Simulated object on the virtual bench")
         ->type_name("NAME");
   }
   if (kind == CalibrationKind::texture) {

@@ -16,6 +16,7 @@
 #include "apps/cli/values.h"
 #include "apps/os/file_access.h"
 #include "apps/station/assets.h"
+#include "apps/twin/phantom/layered_phantom.h"
 #include "apps/twin/phantom/opposed_phantom.h"
 #include "apps/twin/phantom/phantom_file.h"
 
@@ -195,7 +196,9 @@ void solve(const SolveOptions& o) {
       std::fprintf(stderr, "%s%s: %d of %d%s", terminal ? "\r" : "", name.c_str(), done, of,
                    done == of ? "\n" : "");
   };
-  if (twin::isOpposed(file))
+  if (twin::isLayered(file))
+    twin::solveLayered(file, out, progress);
+  else if (twin::isOpposed(file))
     twin::solveOpposed(file, out, progress);
   else
     twin::solvePhantoms(file, out, progress);
@@ -214,6 +217,8 @@ void addPhantom(CLI::App& program) {
   command->footer(
       "Examples:\n  palpa phantom solve                          the shipped mock-ups again\n  "
       "palpa phantom solve --file mine.json --out mine.tables.json\n"
+      "  palpa phantom solve --file assets/phantoms/layered.json\n      blocks with layers, cores "
+      "and ribs: an hour\n"
       "  palpa phantom solve --file assets/phantoms/opposed.json\n"
       "      slabs that are pinched from both sides");
   const auto o = std::make_shared<SolveOptions>();

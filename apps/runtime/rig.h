@@ -35,6 +35,8 @@ struct Request {
     /// `depth`
     press,
     stroke,  ///< stroke over it, to and fro, as far as `reach`, at different depths and speeds
+    /// Once: press it as deep as `depth`, hold, ease off a little, slide as far as `reach`, lift
+    palpate,
   };
   What what = What::show_board;
   std::string words;
@@ -44,6 +46,7 @@ struct Request {
   double seconds = 0;           ///< how long it will be watched; 0: until the button
   std::string sample = {};      ///< which one lies there; empty: the plain one
   double depth = 0, reach = 0;  ///< m
+  double holds = 0;             ///< s, at least, of a palpation
 };
 /// of the readings while a sample is pressed or stroked
 inline constexpr double kFeltRate_Hz = 1000;

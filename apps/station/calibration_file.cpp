@@ -24,7 +24,7 @@ constexpr std::size_t kMostCoordinates = 1000;  // a matrix of as many rows and 
 
 const EnumNames<CalibrationKind> kCalibrationKinds{
     "camera",   "tool",     "workspace", "registration", "latency", "force-sensor",
-    "material", "friction", "inclusion", "texture",      "subtasks"};
+    "material", "friction", "inclusion", "object",       "texture", "subtasks"};
 
 std::vector<double> numbersOf(const JsonFile& file, const json& list, const std::string& at) {
   if (!list.is_array() || list.size() > kMostNumbers) file.refuse(at, "must be a list of numbers");

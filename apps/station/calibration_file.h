@@ -27,6 +27,7 @@ enum class CalibrationKind : std::uint8_t {
   material,
   friction,
   inclusion,
+  object,
   texture,
   subtasks
 };

@@ -69,6 +69,13 @@ struct SetupBench::Impl {
     X_CB = makePose(calibration::halfTurnAboutX(), Vec3(0, 0, 0.5));
   }
 
+  /// That sample, untouched so far; its tables are read once.
+  void lay(const std::string& name) {
+    if (!untouched || untouched_name != name) untouched.emplace(station, name, seed);
+    untouched_name = name;
+    sample = untouched;
+  }
+
   Vec3 hole(const Vec3& p_W) const {
     for (const auto& [said, truth] : holes_W)
       if ((said - p_W).norm() < kSameLandmark) return truth;
@@ -166,7 +173,8 @@ struct SetupBench::Impl {
   std::vector<std::pair<Vec3, Vec3>> holes_W;  ///< where they are said to be, where they are
   std::optional<VirtualCamera> over_table, at_wall;
   std::optional<SensorTwin> felt;
-  std::optional<SampleTwin> sample;  // while one is felt
+  std::optional<SampleTwin> untouched, sample;  // `sample`: while one is felt
+  std::string untouched_name;
   SampleTouch touched;
   RandomStream imaging;
   Pose X_WT = Pose::Identity(), X_CB = Pose::Identity();
@@ -192,8 +200,9 @@ void SetupBench::ask(const Request& request) {
   }
   b.sample.reset();
   b.touched = {};
-  if (request.what == Request::What::press || request.what == Request::What::stroke)
-    b.sample.emplace(b.station, request.sample, b.seed);
+  if (request.what == Request::What::press || request.what == Request::What::stroke ||
+      request.what == Request::What::palpate)
+    b.lay(request.sample);
   b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t,
                  b.station.sample ? b.station.sample->X_WP : Pose::Identity());
 }

@@ -41,6 +41,7 @@ class SetupMotion {
  private:
   Pose during(double t) const;
   LedTip wayOver(const Vec3& p_P);
+  LedTip touchOnce(const Vec3& place);
 
   SetupHandTruth hand_;
   RandomStream choices_, jitter_;

@@ -19,7 +19,9 @@ constexpr double kWholeTurn = 2 * std::numbers::pi;
 constexpr double kOverSample = 2e-3;  // m
 constexpr double kSlowOnes = 0.6;     // share of presses; the others are taps
 
-bool feels(What what) { return what == What::press || what == What::stroke; }
+bool feels(What what) {
+  return what == What::press || what == What::stroke || what == What::palpate;
+}
 bool inHole(What what) { return what == What::touch || what == What::pivot || what == What::spin; }
 
 }  // namespace
@@ -45,6 +47,7 @@ LedTip SetupMotion::wayOver(const Vec3& p_P) {
     }
     return tip;
   }
+  if (request_.what == What::palpate) return touchOnce(place);
   const Vec3 before = place - request_.reach * Vec3::UnitX(),
              beyond = place + request_.reach * Vec3::UnitX();
   LedTip tip(before + kOverSample * Vec3::UnitZ());
@@ -56,6 +59,24 @@ LedTip SetupMotion::wayOver(const Vec3& p_P) {
           .go(before + below, choices_.uniform(0.4, 1.2));
     tip.go(before + kOverSample * Vec3::UnitZ(), 0.4);
   }
+  return tip;
+}
+
+/// Down, held, a third of it let go, sideways at about a stroke's speed, and off.
+LedTip SetupMotion::touchOnce(const Vec3& place) {
+  constexpr double kLetGo = 0.35, kLift_s = 0.2, kEase_s = 0.15;
+  const double deep = request_.depth * choices_.uniform(0.75, 1.0),
+               way = kWholeTurn * choices_.uniform();
+  const Vec3 eased = place - (1 - kLetGo) * deep * Vec3::UnitZ(),
+             beyond = eased + request_.reach * Vec3(std::cos(way), std::sin(way), 0);
+  LedTip tip(place + kOverSample * Vec3::UnitZ());
+  const double down = choices_.uniform(0.15, 0.5),
+               hold = std::max(choices_.uniform(0.05, 0.5), request_.holds);
+  tip.go(place - deep * Vec3::UnitZ(), down, hold)
+      .go(eased, kEase_s)
+      .go(beyond, choices_.uniform(0.3, 0.5))
+      .go(beyond + (deep + kOverSample) * Vec3::UnitZ(), kLift_s);
+  request_.seconds = tip.duration();
   return tip;
 }
 
@@ -137,7 +158,8 @@ Pose SetupMotion::step(double t, double dt) {
 bool SetupMotion::pressing(double t) const {
   if (request_.what == What::show_board) return false;
   const double since = t - arrives_ - kSettles;
-  return since >= 0 && (request_.seconds > 0 || since < kPressFor);
+  return since >= 0 && (request_.what == What::palpate ? since < request_.seconds
+                                                       : request_.seconds > 0 || since < kPressFor);
 }
 
 }  // namespace palpa::twin

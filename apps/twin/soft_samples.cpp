@@ -12,9 +12,42 @@
 namespace palpa::twin {
 namespace {
 
+/// What a key of the station's section "twin" names: phantoms, and their tables beside them.
+struct PhantomFiles {
+  std::filesystem::path phantoms, tables;
+  PhantomFiles(const station::Station& station, const char* key) {
+    const std::string file = "phantoms/" + station.file.text(std::string("twin/") + key);
+    phantoms = station::assetFile(file + ".json");
+    tables = station::assetFile(file + ".tables.json");
+  }
+};
+
 std::vector<Phantom> samplesOf(const station::Station& station) {
-  const std::string file = "phantoms/" + station.file.text("twin/samples");
-  return readSolved(station::assetFile(file + ".json"), station::assetFile(file + ".tables.json"));
+  const PhantomFiles files(station, "samples");
+  return readSolved(files.phantoms, files.tables);
+}
+
+std::vector<LayeredPhantom> objectsOf(const station::Station& station) {
+  if (!station.file.has("twin/objects")) return {};
+  const PhantomFiles files(station, "objects");
+  return readSolvedLayered(files.phantoms, files.tables);
+}
+
+template <class Phantoms>
+auto namedIn(const Phantoms& phantoms, const std::string& name) {
+  return std::find_if(phantoms.begin(), phantoms.end(),
+                      [&](const auto& phantom) { return phantom.name == name; });
+}
+
+[[noreturn]] void refuseName(const std::string& name, const std::vector<Phantom>& samples,
+                             const std::vector<LayeredPhantom>& objects) {
+  std::vector<std::string> known;
+  for (const Phantom& p : samples) known.push_back(p.name);
+  for (const LayeredPhantom& p : objects) known.push_back(p.name);
+  std::string all;
+  for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+  throw UsageError("is not one of the simulated samples" + didYouMean(name, known),
+                   "\"" + name + "\"", "Known are " + all);
 }
 
 }  // namespace
@@ -27,23 +60,21 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
   X_WP_ = trueSample(station, seed);
   radius_ = station.sample->tip_radius;
   const std::vector<Phantom> samples = samplesOf(station);
-  const auto one = name.empty() ? samples.begin()
-                                : std::find_if(samples.begin(), samples.end(),
-                                               [&](const Phantom& p) { return p.name == name; });
-  if (one == samples.end()) {
-    std::vector<std::string> known;
-    std::string all;
-    for (const Phantom& p : samples) {
-      known.push_back(p.name);
-      all += (all.empty() ? "" : ", ") + p.name;
-    }
-    throw UsageError("is not one of the simulated samples" + didYouMean(name, known),
-                     "\"" + name + "\"", "Known are " + all);
+  const auto one = name.empty() ? samples.begin() : namedIn(samples, name);
+  double solved_for = 0;  // m, the tool's radius
+  if (one != samples.end()) {
+    solved_for = one->table.tool_radius;
+    has_lump_ = one->block.lump.has_value();
+    phantom_.emplace<PhantomFingersTwin>(one->table, one->both, SiliconeLaw{});
+  } else {
+    const std::vector<LayeredPhantom> objects = objectsOf(station);
+    const auto object = namedIn(objects, name);
+    if (object == objects.end()) refuseName(name, samples, objects);
+    solved_for = object->table.tool_radius;
+    phantom_.emplace<LayeredPhantomTwin>(*object, SiliconeLaw{});
   }
-  if (std::abs(one->table.tool_radius - radius_) > 1e-6)
+  if (std::abs(solved_for - radius_) > 1e-6)
     station.file.refuse("sample/tip_radius_mm", "is not that of the simulated samples");
-  has_lump_ = one->block.lump.has_value();
-  phantom_.emplace(one->table, one->both, SiliconeLaw{});
 }
 
 Vec3 SampleTwin::lowestIn(const Pose& X_WT) const {
@@ -52,12 +83,17 @@ Vec3 SampleTwin::lowestIn(const Pose& X_WT) const {
 
 SampleTouch SampleTwin::step(const Pose& X_WT, double dt) {
   const Vec3 lowest_P = lowestIn(X_WT);
-  return told(phantom_->step(lowest_P, dt), lowest_P);
+  if (auto* object = std::get_if<LayeredPhantomTwin>(&phantom_))
+    return told(object->step(lowest_P, dt), lowest_P);
+  return told(std::get<PhantomFingersTwin>(phantom_).step(lowest_P, dt), lowest_P);
 }
 
 std::array<SampleTouch, 2> SampleTwin::step(const std::array<Pose, 2>& X_WT, double dt) {
   const std::array<Vec3, 2> lowest_P{lowestIn(X_WT[0]), lowestIn(X_WT[1])};
-  const std::array<PhantomTouch, 2> touches = phantom_->step(lowest_P, dt);
+  auto* const sample = std::get_if<PhantomFingersTwin>(&phantom_);
+  if (!sample)
+    throw Error("cannot be felt with two tools", "the simulated object", "Choose a sample");
+  const std::array<PhantomTouch, 2> touches = sample->step(lowest_P, dt);
   return {told(touches[0], lowest_P[0]), told(touches[1], lowest_P[1])};
 }
 

@@ -3,9 +3,10 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "apps/station/station_file.h"
-#include "apps/twin/phantom/phantom_twin.h"
+#include "apps/twin/phantom/layered_phantom.h"
 
 namespace palpa::twin {
 
@@ -18,14 +19,14 @@ struct SampleTouch {
 /// The soft sample on the virtual bench's table, and a round tip or two on it. W: the world.
 class SampleTwin {
  public:
-  /// One of the station's simulated samples ("twin/samples": a file of assets/phantoms without its
-  /// ending); "" is the first. Throws UsageError for a station without samples, or a name that is
-  /// none of theirs.
+  /// One of the station's simulated samples or objects ("twin/samples", "twin/objects": files of
+  /// assets/phantoms without their ending); "" is the first sample. Throws UsageError for a station
+  /// without samples, or a name that is none of theirs.
   SampleTwin(const station::Station& station, const std::string& name, std::uint64_t seed);
 
   /// The tool (z along it, T on its end) is there after another `dt`.
   SampleTouch step(const Pose& X_WT, double dt);
-  /// Of two tools on a sample without a lump.
+  /// Of two tools on a sample without a lump. Throws Error for an object.
   std::array<SampleTouch, 2> step(const std::array<Pose, 2>& X_WT, double dt);
 
  private:
@@ -35,7 +36,7 @@ class SampleTwin {
   Pose X_WP_;
   double radius_ = 0;
   bool has_lump_ = false;
-  std::optional<PhantomFingersTwin> phantom_;
+  std::variant<std::monostate, PhantomFingersTwin, LayeredPhantomTwin> phantom_;
 };
 
 /// A mass with a soft side toward each of two tools, on a stand from which it can be lifted: free

@@ -25,6 +25,7 @@
 #include "apps/twin/feeling_hands.h"
 #include "apps/twin/lump_search.h"
 #include "apps/twin/operator.h"
+#include "apps/twin/phantom/layered_phantom.h"
 #include "apps/twin/phantom/opposed_phantom.h"
 #include "apps/twin/phantom/phantom_file.h"
 #include "apps/twin/phantom/rough_surface.h"
@@ -135,8 +136,9 @@ Kind stationKind() {
                    " without boards", "/boards.*", "/real_things/0/on.*",
                    "/twin/board_moves/0/board.*", "/twin/(camera|sensor)_faults/./(from|to)_s.*"},
       .forgiving = {},
-      .elsewhere = {"/twin/(samples|landmark_spread_mm|X_EM|camera_sway_mm|tracking_figures).*",
-                    "/twin without camera_sway_mm"}};
+      .elsewhere = {
+          "/twin/(samples|objects|landmark_spread_mm|X_EM|camera_sway_mm|tracking_figures).*",
+          "/twin without camera_sway_mm"}};
 }
 
 std::vector<Kind> taskKinds() {
@@ -247,6 +249,22 @@ std::vector<Kind> materialKinds() {
                },
            // Of the phantoms as they are, with as many cells as these ask for.
            .stricter = {"/made_of.*", "/tables.*", "/pairs.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "layered_phantoms",
+           .samples = {{"phantoms/layered.json", json::object()}},
+           .read = [](const fs::path& file) { twin::readLayered(file); },
+           // The tool stays on the block.
+           .stricter = {"/tool_radius_mm.*", "/block/.*", "/table/.*"},
+           .forgiving = {},
+           .elsewhere = {}},
+          {.name = "layered_tables",
+           .samples = {{"phantoms/layered.tables.json", json::object()}},
+           .read =
+               [](const fs::path& file) {
+                 twin::readSolvedLayered(file.parent_path() / "layered.json", file);
+               },
+           .stricter = {"/made_of.*", "/tables.*"},
            .forgiving = {},
            .elsewhere = {}},
           {.name = "opposed_phantoms",

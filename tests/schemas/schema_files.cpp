@@ -37,6 +37,8 @@ constexpr Place kPlaces[] = {
     {"patients/reference.json", "population"},
     {"materials/textures/[^/]+.json", "calibration"},
     {"phantoms/mockups.json", "phantoms"},
+    {"phantoms/layered.json", "layered_phantoms"},
+    {"phantoms/layered.tables.json", "layered_tables"},
     {"phantoms/textures/[^/]+", "rough_surfaces"},
     {"phantoms/mockups.tables.json", "phantom_tables"},
     {"presentations/[^/]+", "presentation"},

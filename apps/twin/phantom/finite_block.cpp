@@ -18,25 +18,44 @@ constexpr double kGoodEnough = 1e-6;  // of the force on the tools
 constexpr double kTipStiffness = 40;
 constexpr double kLongestStep = 1.6e-3;  // m that tools go at once
 
-/// How much of a Gauss point's eighth of an element lies in the lump. The elements are boxes.
-double shareInLump(const SoftBlock& block, const Brick::IntegrationPoint& point,
-                   const std::array<Eigen::Vector3d, 8>& nodes) {
-  if (!block.lump) return 0;
-  constexpr int kEach = 6;
+bool inLump(const SoftBlock& block, const Vec3& p) {
+  return block.lump && (p - block.lump->centre).norm() < block.lump->radius;
+}
+
+/// What a Gauss point's eighth of an element holds. The elements are boxes.
+struct Held {
+  double lump = 0;   ///< share of it that lies in the lump
+  double shear = 0;  ///< Pa, on average
+};
+Held heldBy(const SoftBlock& block, const Brick::IntegrationPoint& point,
+            const std::array<Eigen::Vector3d, 8>& nodes) {
+  constexpr int kEach = 6, kAll = kEach * kEach * kEach;
   const Vec3 middle = 0.5 * (nodes[0] + nodes[6]), half = 0.5 * (nodes[6] - nodes[0]);
-  int inside = 0;
-  for (int i = 0; i < kEach * kEach * kEach; ++i) {
+  Held held;
+  for (int i = 0; i < kAll; ++i) {
     const Vec3 share((i % kEach + 0.5) / kEach, (i / kEach % kEach + 0.5) / kEach,
                      (i / kEach / kEach + 0.5) / kEach);
     const Vec3 p = middle + share.cwiseProduct(half).cwiseProduct((point.p - middle).cwiseSign());
-    inside += (p - block.lump->centre).norm() < block.lump->radius;
+    held.lump += inLump(block, p);
+    held.shear += shearAt(block, p);
   }
-  return static_cast<double>(inside) / (kEach * kEach * kEach);
+  return {held.lump / kAll, held.shear / kAll};
 }
 
 }  // namespace
 
+double shearAt(const SoftBlock& block, const Vec3& p) {
+  if (inLump(block, p)) return block.lump->shear;
+  for (const SoftBlock::Rib& rib : block.ribs)
+    if (std::hypot(p.x() - rib.x, p.z() - rib.z) < rib.radius) return rib.shear;
+  double below = 0;  // m, down to a layer's lower side
+  for (const SoftBlock::Layer& layer : block.layers)
+    if (-p.z() < (below += layer.thickness + layer.slope * p.x())) return layer.shear;
+  return block.shear;
+}
+
 struct FiniteBlock::Model {
+  BlockPart part = BlockPart::half;
   BlockMesh mesh;
   double tool_radius, cover;
   bool framed = false;
@@ -61,6 +80,12 @@ struct FiniteBlock::Model {
     }
     return 0;
   }
+
+  /// Of the whole block, where half of it is computed.
+  Vec3 of(const Vec3& sum) const {
+    return part == BlockPart::whole ? sum : Vec3(2 * sum.x(), 0, 2 * sum.z());
+  }
+  double of(double sum) const { return part == BlockPart::whole ? sum : 2 * sum; }
 
   Vec24 of(const std::array<int, 8>& brick) const {
     Vec24 local;
@@ -129,7 +154,7 @@ struct FiniteBlock::Model {
       state->E += pressure.E;
       add(face, pressure.gradient, &state->gradient);
       if (tangent) scatter(face, pressure.tangent, tangent);
-      state->f_tips[t] += 2 * Vec3(pressure.f_tip.x(), 0, pressure.f_tip.z());  // the other half
+      state->f_tips[t] += of(pressure.f_tip);
     }
   }
 
@@ -188,6 +213,8 @@ struct FiniteBlock::Model {
   }
 
   BlockResponse settle(const std::vector<Vec3>& at);
+  /// Of `mesh`: its elements, what they hold, what is unknown.
+  void fill(const SoftBlock& block, double radius, const Fineness& fineness);
 };
 
 BlockResponse FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
@@ -200,11 +227,11 @@ BlockResponse FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
     for (const Vec3& f : here.f_tips) force = std::max(force, f.norm());
     if (here.gradient.norm() < kGoodEnough * force) {
       answer.f = here.f_tips;
-      answer.energy = 2 * here.E;
+      answer.energy = of(here.E);
       for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
         answer.lump += lump_share[static_cast<Eigen::Index>(a)] *
                        u.segment<3>(3 * static_cast<Eigen::Index>(a));
-      answer.lump.y() = 0;
+      if (part == BlockPart::half) answer.lump.y() = 0;
       answer.under = under(at.front().x());
       return answer;
     }
@@ -224,14 +251,11 @@ BlockResponse FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
               "press less deeply, or use finer elements");
 }
 
-FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x,
-                         double tool_radius, const Fineness& fineness)
-    : model_(std::make_unique<Model>()) {
-  Model& m = *model_;
-  m.mesh = meshOf(block, tool_x, tool_radius, fineness);
-  m.tool_radius = tool_radius;
+void FiniteBlock::Model::fill(const SoftBlock& block, double radius, const Fineness& fineness) {
+  Model& m = *this;
+  m.tool_radius = radius;
   m.framed = block.framed;
-  m.cover = kTipStiffness * 3 * block.shear / fineness.finest;
+  m.cover = kTipStiffness * 3 * shearAt(block, Vec3::Zero()) / fineness.finest;
   m.u = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(m.mesh.nodes.size()));
   m.lump_share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m.mesh.nodes.size()));
   for (const bool fixed : m.mesh.fixed) m.unknown.push_back(fixed ? -1 : m.count++);
@@ -241,10 +265,10 @@ FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool
     Brick brick = brickOf(at);
     double mean = 0;
     for (Brick::IntegrationPoint& point : brick.points) {
-      const double inside = shareInLump(block, point, at);
-      point.shear = block.shear + inside * (block.lump ? block.lump->shear - block.shear : 0.0);
+      const Held held = heldBy(block, point, at);
+      point.shear = held.shear;
       mean += point.shear * point.volume / brick.volume;
-      for (int a = 0; a < 8; ++a) m.lump_share[nodes[a]] += inside * point.N[a] * point.volume;
+      for (int a = 0; a < 8; ++a) m.lump_share[nodes[a]] += held.lump * point.N[a] * point.volume;
     }
     m.bulk.push_back(block.bulk_over_shear * mean);
     m.bricks.push_back(brick);
@@ -252,6 +276,24 @@ FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool
   if (const double whole = m.lump_share.sum(); whole > 0) m.lump_share /= whole;
 }
 
+FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x,
+                         double tool_radius, const Fineness& fineness)
+    : model_(std::make_unique<Model>()) {
+  model_->mesh = meshOf(block, {tool_x, 0, BlockPart::half}, tool_radius, fineness);
+  model_->fill(block, tool_radius, fineness);
+}
+
+FiniteBlock FiniteBlock::whole(const SoftBlock& block, const Eigen::Vector2d& tool,
+                               double tool_radius, const Fineness& fineness) {
+  auto model = std::make_unique<Model>();
+  model->part = BlockPart::whole;
+  model->mesh = meshOf(block, {{tool.x()}, tool.y(), BlockPart::whole}, tool_radius, fineness);
+  model->fill(block, tool_radius, fineness);
+  return FiniteBlock(std::move(model));
+}
+
+FiniteBlock::FiniteBlock(std::unique_ptr<Model> model) : model_(std::move(model)) {}
+FiniteBlock::FiniteBlock(FiniteBlock&&) noexcept = default;
 FiniteBlock::~FiniteBlock() = default;
 
 BlockResponse FiniteBlock::press(const std::vector<Vec3>& tips) {

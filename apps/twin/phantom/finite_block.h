@@ -22,7 +22,22 @@ struct SoftBlock {
     double radius = 0.008, shear = 24e3;  ///< m, Pa
   };
   std::optional<Lump> lump;
+
+  /// From the top down, as thick as `thickness` in the middle, and `slope` more for every metre
+  /// along x: skin over fat over the rest.
+  struct Layer {
+    double thickness = 2e-3, slope = 0, shear = 8e3;  ///< m, m/m, Pa
+  };
+  std::vector<Layer> layers;
+  /// Round bars along y from side to side: ribs.
+  struct Rib {
+    double x = 0, z = -0.02, radius = 0.006, shear = 60e3;  ///< m, m, m, Pa
+  };
+  std::vector<Rib> ribs;
 };
+
+/// Pa, at a point: of the lump; else of the rib; else of the layer; else the block's.
+double shearAt(const SoftBlock& block, const Vec3& p);
 
 /// How fine the elements are where a tool presses, and how they grow from there.
 struct Fineness {
@@ -38,15 +53,22 @@ struct BlockResponse {
   int iterations = 0;
 };
 
-/// The block under one or two round, frictionless tool tips that press in its plane y = 0; half of
-/// it is computed. Hexahedra with mean dilatation (Simo, Taylor and Pister 1985), which do not
-/// lock; neo-Hookean; contact by a penalty, integrated over the surface; Newton's method with steps
-/// halved until the energy falls.
+/// What of a block is computed: half of it where the tools press in its plane y = 0, and all that
+/// it holds is the same on both sides of it; else the whole.
+enum class BlockPart { half, whole };
+
+/// The block under one or two round, frictionless tool tips. Hexahedra with mean dilatation (Simo,
+/// Taylor and Pister 1985), which do not lock; neo-Hookean; contact by a penalty, integrated over
+/// the surface; Newton's method with steps halved until the energy falls.
 class FiniteBlock {
  public:
-  /// `tool_x`: where tools will press, about which elements are fine.
+  /// `tool_x`: where tools will press, in y = 0, about which elements are fine.
   FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius,
               const Fineness& fineness = {});
+  /// The whole block under one tool that will press at `tool`, (x, y).
+  static FiniteBlock whole(const SoftBlock& block, const Eigen::Vector2d& tool, double tool_radius,
+                           const Fineness& fineness = {});
+  FiniteBlock(FiniteBlock&&) noexcept;
   ~FiniteBlock();
 
   /// At rest with the tools' lowest points at `tips`; starts from the last answer. Of a block in a
@@ -57,6 +79,7 @@ class FiniteBlock {
 
  private:
   struct Model;
+  explicit FiniteBlock(std::unique_ptr<Model> model);
   std::unique_ptr<Model> model_;
 };
 

@@ -192,11 +192,17 @@ double spacing(const Fineness& fineness, double away) {
   return std::min(fineness.coarsest, fineness.finest + fineness.growth * std::max(0.0, away));
 }
 
-/// A lump is seen by some six elements across, whatever is above it.
-double spacingAtLump(const SoftBlock& block, const Fineness& fineness, int axis, double at) {
-  if (!block.lump) return fineness.coarsest;
-  const double away = std::max(0.0, std::abs(at - block.lump->centre[axis]) - block.lump->radius);
-  return block.lump->radius / 3 + fineness.growth * away;
+/// A lump is seen by some six elements across, a rib, too, whatever is above them.
+double spacingAtInside(const SoftBlock& block, const Fineness& fineness, int axis, double at) {
+  double wanted = fineness.coarsest;
+  const auto fineAt = [&](double middle, double radius) {
+    const double away = std::max(0.0, std::abs(at - middle) - radius);
+    wanted = std::min(wanted, radius / 3 + fineness.growth * away);
+  };
+  if (block.lump) fineAt(block.lump->centre[axis], block.lump->radius);
+  for (const SoftBlock::Rib& rib : block.ribs)
+    if (axis != 1) fineAt(axis == 0 ? rib.x : rib.z, rib.radius);
+  return wanted;
 }
 
 struct Grid {
@@ -206,30 +212,32 @@ struct Grid {
   }
 };
 
-Grid gridOf(const SoftBlock& block, const std::vector<double>& tool_x, double reach,
+Grid gridOf(const SoftBlock& block, const ToolPlaces& tools, double reach,
             const Fineness& fineness) {
   Grid grid;
   grid.x = planes(-block.length / 2, block.length / 2, [&](double x) {
     double nearest = block.length;
-    for (const double tool : tool_x) nearest = std::min(nearest, std::abs(x - tool));
-    return std::min(spacing(fineness, nearest - reach), spacingAtLump(block, fineness, 0, x));
+    for (const double tool : tools.x) nearest = std::min(nearest, std::abs(x - tool));
+    return std::min(spacing(fineness, nearest - reach), spacingAtInside(block, fineness, 0, x));
   });
-  grid.y = planes(0, block.width / 2, [&](double y) {
-    return std::min(spacing(fineness, y - reach), spacingAtLump(block, fineness, 1, y));
+  const double side = tools.part == BlockPart::half ? 0 : -block.width / 2;
+  grid.y = planes(side, block.width / 2, [&](double y) {
+    return std::min(spacing(fineness, std::abs(y - tools.y) - reach),
+                    spacingAtInside(block, fineness, 1, y));
   });
   grid.z = planes(-block.height, 0, [&](double z) {
     const double deep = block.framed ? std::min(-z, z + block.height) : -z;
-    return std::min(spacing(fineness, 0.5 * deep), spacingAtLump(block, fineness, 2, z));
+    return std::min(spacing(fineness, 0.5 * deep), spacingAtInside(block, fineness, 2, z));
   });
   return grid;
 }
 
 }  // namespace
 
-BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius,
+BlockMesh meshOf(const SoftBlock& block, const ToolPlaces& tools, double tool_radius,
                  const Fineness& fineness) {
   constexpr std::size_t kMostNodes = 100'000;
-  const Grid g = gridOf(block, tool_x, 0.8 * tool_radius, fineness);
+  const Grid g = gridOf(block, tools, 0.8 * tool_radius, fineness);
   if (const std::size_t nodes = g.x.size() * g.y.size() * g.z.size(); nodes > kMostNodes)
     throw UsageError("would be solved at " + std::to_string(nodes) + " points, more than " +
                          std::to_string(kMostNodes),
@@ -240,9 +248,11 @@ BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, doub
     for (const double y : g.y) {
       for (const double x : g.x) {
         mesh.nodes.emplace_back(x, y, z);
-        const bool side = x == g.x.front() || x == g.x.back() || y == g.y.back(),
+        const bool mirror = tools.part == BlockPart::half && y == 0,
+                   side = x == g.x.front() || x == g.x.back() || y == g.y.back() ||
+                          (y == g.y.front() && !mirror),
                    glued = block.framed ? side : z == g.z.front();
-        mesh.fixed.insert(mesh.fixed.end(), {glued, glued || y == 0, glued});
+        mesh.fixed.insert(mesh.fixed.end(), {glued, glued || mirror, glued});
       }
     }
   }

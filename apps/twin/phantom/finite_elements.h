@@ -74,18 +74,25 @@ struct FacePressure {
 FacePressure pressureOn(const std::array<Vec3, 4>& before, const std::array<Vec3, 4>& now,
                         const RoundTip& tip, double stiffness);
 
-/// Hexahedra of half a block, y >= 0, on a grid of planes that are dense where tools press and near
-/// the top.
+/// Hexahedra of half a block, y >= 0, or of the whole, on a grid of planes that are dense where
+/// tools press and near the top.
 struct BlockMesh {
   std::vector<Vec3> nodes;                 ///< m, undeformed
   std::vector<std::array<int, 8>> bricks;  ///< nodes counter-clockwise below, then above
   /// faces that tools may touch, counter-clockwise from above
   std::vector<std::array<int, 4>> top, bottom;
-  /// of every coordinate of every node: glued below, or all round; in its plane at y = 0
+  /// of every coordinate of every node: glued below, or all round; of a half, in its plane at y = 0
   std::vector<bool> fixed;
 };
 
-BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius,
+/// Where elements are to be fine.
+struct ToolPlaces {
+  std::vector<double> x;  ///< m
+  double y = 0;           ///< m, of all of them
+  BlockPart part = BlockPart::half;
+};
+
+BlockMesh meshOf(const SoftBlock& block, const ToolPlaces& tools, double tool_radius,
                  const Fineness& fineness);
 
 }  // namespace palpa::twin

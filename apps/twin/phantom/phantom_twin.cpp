@@ -7,7 +7,7 @@
 
 namespace palpa::twin {
 
-PhantomTouch SiliconeContact::step(const Vec3& elastic, const Vec3& tip, double dt) {
+PhantomTouch SiliconeContact::step(const Vec3& elastic, const Vec3& tip, double dt, double rubs) {
   const Vec3 dp = started_ ? Vec3(tip - last_) : Vec3(Vec3::Zero());
   last_ = tip;
   started_ = true;
@@ -28,18 +28,18 @@ PhantomTouch SiliconeContact::step(const Vec3& elastic, const Vec3& tip, double 
   }
   touch.n = elastic / f;
   touch.f_n = now;
-  touch.f = now * touch.n - drag(touch, dp, dt);
+  touch.f = now * touch.n - drag(touch, dp, dt, rubs);
   return touch;
 }
 
 /// dF = sigma (dp - F |dp| / F_c), within F_c; F_c falls with speed and grows a little less than
 /// the load, which no law that is identified knows. Along the undeformed surface: what is pressed
 /// straight down takes the rubber below along and does not rub.
-Vec3 SiliconeContact::drag(const PhantomTouch& touch, const Vec3& dp, double dt) {
+Vec3 SiliconeContact::drag(const PhantomTouch& touch, const Vec3& dp, double dt, double rubs) {
   constexpr int kParts = 40;
   const Vec3 along(dp.x(), dp.y(), 0), part = along / kParts;
   const double speed = along.norm() / dt / law_.sticks_below;
-  const double most = law_.mu * (1 + law_.sticks * std::exp(-speed * speed)) *
+  const double most = rubs * law_.mu * (1 + law_.sticks * std::exp(-speed * speed)) *
                       std::pow(touch.f_n, 1 + law_.load_power);
   for (int i = 0; i < kParts; ++i) {
     drag_ += law_.sigma * (part - drag_ * (part.norm() / most));

@@ -34,12 +34,12 @@ struct PhantomTouch {
 class SiliconeContact {
  public:
   explicit SiliconeContact(const SiliconeLaw& law) : law_(law) {}
-  /// The tool's lowest point is at `tip` after another `dt`, where `elastic`, N, pushes it back;
-  /// all but the lump is told.
-  PhantomTouch step(const Vec3& elastic, const Vec3& tip, double dt);
+  /// The tool's lowest point is at `tip` after another `dt`, where `elastic`, N, pushes it back
+  /// and the surface rubs `rubs` times as the law says; all but the lump is told.
+  PhantomTouch step(const Vec3& elastic, const Vec3& tip, double dt, double rubs = 1);
 
  private:
-  Vec3 drag(const PhantomTouch& touch, const Vec3& dp, double dt);
+  Vec3 drag(const PhantomTouch& touch, const Vec3& dp, double dt, double rubs);
   SiliconeLaw law_;
   double elastic_ = 0;
   std::array<double, 2> extra_{0, 0};  // N
