@@ -176,7 +176,7 @@ std::vector<KeepOutOrgan> keepOutIn(const JsonFile& file, const station::NamedPl
       std::any_of(plan.each.begin(), plan.each.begin() + plan.count,
                   [](const auto& a) { return a.kind == haptics::AugmentationKind::keep_out; });
   if (wall != file.has("keep_out"))
-    file.refuse("keep_out", wall ? "is missing: out of what does the augmentation keep?"
+    file.refuse("keep_out", wall ? "is missing: name the organs that the augmentation keeps out of"
                                  : "needs an augmentation of this kind beside it");
   if (!wall) return all;
   for (const JsonFile& one : file.entries("keep_out")) {

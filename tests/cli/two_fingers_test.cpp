@@ -307,7 +307,7 @@ TEST(TwoFingers, ATrackedFingersForceIsEstimatedAndCalledSo) {
                                 here.path());
   ASSERT_EQ(session.exit_code, 0) << session.err;
   const std::string page = contentOf(here / "A/report.html");
-  EXPECT_TRUE(says(page, "second, estimated")) << "its curve";
+  EXPECT_TRUE(says(page, "The second finger's force is estimated")) << "below its curve";
   EXPECT_TRUE(says(page, "it is tracked and has no force sensor"));
   const Outcome replay = palpa({"replay", "A/session.palpa"}, here.path());
   EXPECT_EQ(replay.exit_code, 0) << replay.out;

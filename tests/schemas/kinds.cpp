@@ -145,10 +145,14 @@ std::vector<Kind> taskKinds() {
   return {{.name = "task_needle",
            .samples = {{"tasks/bone_pin.json",
                         {{"end", {{"most_passes", {{"assessed", 3}, {"practice", 0}}}}}}},
-                       {"tasks/paracentesis.json", json::object()}},
+                       {"tasks/paracentesis.json", json::object()},
+                       {"tasks/paracentesis_guided.json", json::object()}},
            .read = [](const fs::path& file) { task_needle::readTask(file); },
-           // Parts are asked for by name.
-           .stricter = {"/goal/part.*", "/subtasks.*", "/augmentations/./subtask.*"},
+           // Parts and organs are asked for by name; what is kept out of stands beside a cue that
+           // keeps out; a band ends above where it begins.
+           .stricter = {"/goal/part.*", "/subtasks.*", "/augmentations/./subtask.*",
+                        "/augmentations/./(from|to)_Hz.*", "/augmentations as .*", "/keep_out.*",
+                        " without (augmentations|keep_out)"},
            .forgiving = {"/words as .*", "/words/(tissues|organs) as (null|\\[\\])"},
            .elsewhere = {}},
           {.name = "task_palpation",

@@ -14,7 +14,7 @@ constexpr double kMarksHeight = 20, kLineOfText = 13;  // px
 PlotPanel pressingPanel(const PalpationPage& page, bool wide) {
   PlotPanel panel{"Force", "N", {}, 1, 0, wide ? 190.0 : 170.0};
   PlotCurve first{"force", "pressing", {}, true},
-      second{page.estimated ? "second, estimated" : "second", "beside", {}, false};
+      second{page.estimated ? "estimated" : "second", "beside", {}, false};
   double high = std::max(page.rules.too_hard, page.rules.levels.back());
   for (const assess::PalpationSample& sample : page.samples) {
     (sample.tool == 0 ? first : second).points.push_back({sample.t_s, sample.f_n});
