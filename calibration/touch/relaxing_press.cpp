@@ -83,7 +83,6 @@ struct OnePress {
     return left;
   }
   void fit(const Shared& shared, double uneven_mm) {
-    const VectorX none = VectorX::Zero(kOwn);
     FitProblem problem{static_cast<int>(counted.size()) + 3, 1, static_cast<int>(kOwn),
                        [&](const VectorX& d) { return residuals(shared, uneven_mm, own + Own(d)); },
                        [&](const VectorX& d) { own += Own(d); }};
@@ -93,6 +92,15 @@ struct OnePress {
     noise_N = std::max(found.sigma, kLeastNoise_N);
   }
 };
+
+/// What the sensor shows at first, in the air, N.
+double inTheAir(const std::vector<double>& f) {
+  constexpr std::size_t kFirst = 8;
+  const std::size_t count = std::min(kFirst, f.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += f[i];
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
 
 OnePress onePressOf(const Press& press, double dt, double depth) {
   OnePress one;
@@ -107,12 +115,13 @@ OnePress onePressOf(const Press& press, double dt, double depth) {
     one.x.push_back(s.x);
     one.f.push_back(s.f);
   }
-  const double largest = one.f.empty() ? 0 : *std::max_element(one.f.begin(), one.f.end());
+  const double air = inTheAir(one.f),
+               largest = one.f.empty() ? 0 : *std::max_element(one.f.begin(), one.f.end()) - air;
   if (largest < kLightest_N)
     throw Error("the touch was too light", kRelaxingWhere, "Press a little deeper");
   double begins = 1e9, deepest = -1e9;
   for (std::size_t i = 0; i < one.f.size(); ++i) {
-    if (one.f[i] > kBegins * largest) begins = std::min(begins, one.x[i]);
+    if (one.f[i] - air > kBegins * largest) begins = std::min(begins, one.x[i]);
     deepest = std::max(deepest, one.x[i]);
   }
   const auto apart = static_cast<std::size_t>(std::max(1.0, std::round(kApart_s / one.dt)));
@@ -120,7 +129,7 @@ OnePress onePressOf(const Press& press, double dt, double depth) {
   for (std::size_t i = 0; i < one.x.size(); i += apart) {
     if (one.x[i] < begins - kBefore) continue;
     one.counted.push_back(i);
-    const double slope = 1.5 * std::max(one.f[i], 0.0) / std::max(one.x[i] - begins, kNear);
+    const double slope = 1.5 * std::max(one.f[i] - air, 0.0) / std::max(one.x[i] - begins, kNear);
     one.weight.push_back(1 / std::hypot(1, slope * kPlaceNoise / kForceNoise_N));
     in_contact += one.x[i] > begins;
   }

@@ -47,11 +47,11 @@ bool isTaken(const PlacedLump& lump) noexcept;
 /// reaction would take. So of a newton that is sensed never more than a newton is taken, whatever
 /// the laws err, and what stays is no spring that pushes outward. Across z the lump's push and its
 /// friction cannot be told apart well enough, so the friction of the object alone takes their
-/// place, all of it where the lumps add half of the force; where they add nothing nothing is done.
-/// f_T falls with the distance by q = 1: without it a lump is taken for a quarter too strong where
-/// it is felt from 12 mm beside it [chosen on the eight mock-ups of assets/phantoms; of 0, 0.7, 1
-/// and 1.5]. s: the largest share of the lumps. Two tools one after the other. Invalid figures take
-/// nothing. No allocation, no exception.
+/// place, all of it where the lumps add half of the force, and never more than is sensed; where
+/// they add nothing nothing is done. f_T falls with the distance by q = 1: without it a lump is
+/// taken for a quarter too strong where it is felt from 12 mm beside it [chosen on the eight
+/// mock-ups of assets/phantoms; of 0, 0.7, 1 and 1.5]. s: the largest share of the lumps. Two tools
+/// one after the other. Invalid figures take nothing. No allocation, no exception.
 TakenLumps takeLumps(const StiffnessModulation& surface,
                      const std::array<VirtualInclusion, kMostLumpKinds>& kinds,
                      const PlacedLumps& lumps, double tip_radius,

@@ -116,6 +116,21 @@ TEST(RelaxingPress, PressesTellWhereTheSurfaceIsTogether) {
   EXPECT_GE(covered(uneven), 26);  // of 30
 }
 
+TEST(RelaxingPress, WhatTheSensorHasDriftedIsNoForce) {
+  RandomStream noise(6, "relaxing_press_test");
+  std::vector<Press> presses = severalPresses(12, 0.05, 0.3, noise);
+  const PressedThing straight = identifyPresses(presses, kDt);
+  for (const double drift : {-0.04, 0.04}) {
+    std::vector<Press> drifted = presses;
+    for (Press& press : drifted)
+      for (PressSample& sample : press.samples) sample.f += drift;
+    const PressedThing found = identifyPresses(drifted, kDt);
+    EXPECT_NEAR(found.offset_N - straight.offset_N, drift, 1e-3);
+    for (std::size_t i = 0; i < presses.size(); ++i)
+      EXPECT_NEAR(std::log(found.presses[i]->f_d / straight.presses[i]->f_d), 0, 0.01);
+  }
+}
+
 TEST(RelaxingPress, WhatDoesNotRelaxHasNoShares) {
   RandomStream noise(3, "relaxing_press_test");
   for (const double share : identifyPresses(severalPresses(12, 0, 1, noise), kDt).relaxation.share)
