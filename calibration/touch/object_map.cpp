@@ -163,7 +163,8 @@ MapVerdict judge(const ObjectMap& map, const MappedArea& area, int next, double 
   verdict.sure = verdict.known >= area.share;
   std::stable_sort(places.begin(), places.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& [sd, p] : places) {
+  for (const auto& place : places) {
+    const Eigen::Vector2d& p = place.second;
     if (static_cast<int>(verdict.next.size()) >= next) break;
     const bool taken =
         std::any_of(verdict.next.begin(), verdict.next.end(),

@@ -94,7 +94,7 @@ OpposedCell OpposedTable::at(double away, const std::array<double, 2>& depth, do
   std::array<double, 2> met{};  // d'
   for (std::size_t t = 0; t < 2; ++t)
     met[t] = std::max(depth[t] + share * underAt(away, depth[1 - t]), 0.0);
-  const OpposedCell first = between(*this, away, {met[0], share * met[1]});
+  OpposedCell first = between(*this, away, {met[0], share * met[1]});
   if (share == 1) return first;
   const OpposedCell second = between(*this, away, {share * met[0], met[1]});
   return {{first.f[0], second.f[1]}, 0.5 * (first.lump + second.lump)};
