@@ -29,7 +29,7 @@ struct MapValue {
 /// and Williams, Gaussian Processes for Machine Learning, 2006: 2.2, 2.7, 4.2.1, 5.2.)
 class ObjectMap {
  public:
-  /// Throws Error for fewer than 6 touches, figures that are none, a spread of zero or less, and
+  /// Throws Error for fewer than 6 touches, invalid figures, a spread of zero or less, and
   /// touches that are all in one place.
   /// `shared_sd`: of an error of the logarithm that all touches have in common, which no number of
   /// touches takes away.

@@ -111,7 +111,7 @@ OnePress onePressOf(const Press& press, double dt, double depth) {
   for (std::size_t i = 0; i < press.samples.size(); i += every) {
     const PressSample& s = press.samples[i];
     if (!std::isfinite(s.x) || !std::isfinite(s.f))
-      throw Error("holds figures that are none", kRelaxingWhere, "Record it again");
+      throw Error("holds invalid figures", kRelaxingWhere, "Record it again");
     one.x.push_back(s.x);
     one.f.push_back(s.f);
   }

@@ -60,8 +60,8 @@ struct PressedThing {
 /// Least squares with each press's own figures free to follow the shared ones (Golub and Pereyra
 /// 1973), the deviations' spread by expectation and maximization (Dempster, Laird and Rubin 1977).
 /// Presses that are held for a while tell the relaxation; some at several speeds. Throws Error, in
-/// plain words, for fewer than 3 presses that are long and heavy enough, and for figures that are
-/// none.
+/// plain words, for fewer than 3 presses that are long and heavy enough, and for invalid
+/// figures.
 PressedThing identifyPresses(const std::vector<Press>& presses, double dt, double depth = 3e-3);
 
 }  // namespace palpa::calibration

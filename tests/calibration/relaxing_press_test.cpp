@@ -154,7 +154,7 @@ TEST(RelaxingPress, WhatTellsNothingIsLeftOutOrRefused) {
   presses[1].samples = pressed({.down = 0.03, .hold = 0, .up = 0.03}, 0, 1, noise);
   EXPECT_TRUE(test::says(identifyPresses(presses, kDt).why, "too short"));
   presses[1].samples[100].f = std::nan("");
-  EXPECT_TRUE(test::says(identifyPresses(presses, kDt).why, "figures that are none"));
+  EXPECT_TRUE(test::says(identifyPresses(presses, kDt).why, "invalid figures"));
   presses[1].samples.clear();
   presses.resize(3);
   EXPECT_TRUE(test::says(test::complaint([&] { identifyPresses(presses, kDt); }), "2 presses"));

@@ -8,6 +8,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/twin/phantom/phantom_file.h"
 
 namespace palpa::twin {
 namespace {
@@ -180,8 +181,7 @@ std::vector<LayeredPhantom> readSolvedLayered(const std::filesystem::path& name,
   LayeredFile file = readLayered(name);
   const JsonFile tables(tables_name);
   needKind(tables, "layered_tables", 1);
-  if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
-    tables.refuse("made_of", "is not " + name.string() + " (solve it again: palpa phantom solve)");
+  needMadeOf(tables, name);
   const std::vector<JsonFile> each = tables.entries("tables");
   if (each.size() != file.phantoms.size()) tables.refuse("tables", "must be one for each phantom");
   for (std::size_t i = 0; i < file.phantoms.size(); ++i) {

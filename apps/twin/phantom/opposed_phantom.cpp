@@ -6,6 +6,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/twin/phantom/phantom_file.h"
 
 namespace palpa::twin {
 namespace {
@@ -163,8 +164,7 @@ std::vector<OpposedPhantom> readSolvedOpposed(const std::filesystem::path& name,
   OpposedFile file = readOpposed(name);
   const JsonFile tables(tables_name);
   needKind(tables, "opposed_tables", 1);
-  if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
-    tables.refuse("made_of", "is not " + name.string() + " (solve it again: palpa phantom solve)");
+  needMadeOf(tables, name);
   for (const char* list : {"tables", "under"})
     if (!tables.has(list) || !tables.json()[list].is_array() ||
         tables.json()[list].size() != file.phantoms.size())

@@ -135,13 +135,17 @@ void solvePhantoms(const std::filesystem::path& name, const std::filesystem::pat
   whole.finish();
 }
 
+void needMadeOf(const JsonFile& tables, const std::filesystem::path& name) {
+  if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
+    tables.refuse("made_of", "is not " + name.string() + " (solve it again: palpa phantom solve)");
+}
+
 std::vector<Phantom> readSolved(const std::filesystem::path& name,
                                 const std::filesystem::path& tables_name) {
   PhantomFile file = readPhantoms(name);
   const JsonFile tables(tables_name);
   needKind(tables, "phantom_tables", 1);
-  if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
-    tables.refuse("made_of", "is not " + name.string() + " (solve it again: palpa phantom solve)");
+  needMadeOf(tables, name);
   for (const char* list : {"tables", "pairs"}) {
     if (!tables.has(list) || !tables.json()[list].is_array() ||
         tables.json()[list].size() != file.phantoms.size())

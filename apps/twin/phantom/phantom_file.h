@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "anatomy/base/json_file.h"
 #include "apps/twin/phantom/phantom_table.h"
 
 namespace palpa::twin {
@@ -31,6 +32,9 @@ PhantomFile readPhantoms(const std::filesystem::path& file);
 /// Takes minutes for each. Throws Error.
 void solvePhantoms(const std::filesystem::path& file, const std::filesystem::path& out,
                    const std::function<void(const std::string& name, int done, int of)>& progress);
+
+/// Throws UsageError where solved tables were made of another description than the file `name`.
+void needMadeOf(const JsonFile& tables, const std::filesystem::path& name);
 
 /// A file's phantoms with their tables from `tables`. Throws UsageError where these were made of
 /// another description.
