@@ -127,11 +127,11 @@ std::vector<ar::BoardPoint> meanPoints(const std::vector<std::vector<ar::BoardPo
 class TwoBoards {
  public:
   TwoBoards(const station::Station& station, const calibration::CameraModel& camera)
-      : camera_(camera), board_(ar::makeBoard(station.board, 1.0)) {
+      : camera_(camera), board_(ar::makeBoard(station.board, station.decimate)) {
     if (!station.marker)
       throw Error("has no \"marker\" on the tool", station.file.name(),
                   "Add one, or register by landmarks alone");
-    marker_ = ar::makeBoard(*station.marker, 1.0);
+    marker_ = ar::makeBoard(*station.marker, station.decimate);
   }
   /// In one picture, or in several of the same pose.
   Seen see(const std::vector<cv::Mat>& images) const {

@@ -80,7 +80,8 @@ std::vector<ar::BoardPoint> stillView(const Scene& scene, const ar::Board& board
 }  // namespace
 
 std::vector<calibration::BoardView> collectViews(const Scene& scene, int views) {
-  const std::unique_ptr<ar::Board> board = ar::makeBoard(scene.station.board, 1.0);
+  const std::unique_ptr<ar::Board> board =
+      ar::makeBoard(scene.station.board, scene.station.decimate);
   std::vector<calibration::BoardView> taken;
   calibration::CoverageMap coverage{};
   for (int i = 0; i < views; ++i) {

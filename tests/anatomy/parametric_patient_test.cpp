@@ -59,7 +59,7 @@ Person personNumber(int i) {
 
 class Drawn : public testing::TestWithParam<int> {};
 TEST_P(Drawn, IsTeachable) {
-  constexpr int kAll = 200, kSome = 8;
+  constexpr int kAll = 200, kSome = 4;
   const int chunk = (fullCounts() ? kAll : kSome) / 4;
   for (int i = GetParam() * chunk + 1; i <= (GetParam() + 1) * chunk; ++i) {
     PatientParameters p = drawParameters(reference(), i % 3 ? Side::right : Side::left,
@@ -180,7 +180,7 @@ TEST(DrawParameters, SeedZeroIsTheMeansAndOthersSpread) {
 // The published means within 5 % and spreads within 10 %, of women and men drawn without
 // statements.
 TEST(DrawParameters, PopulationHasThePublishedMeansAndSpreads) {
-  const int draws = fullCounts() ? 1000 : 120;
+  const int draws = fullCounts() ? 1000 : 60;
   struct Figure {
     const char* what;
     double mean, sd, PatientParameters::*field;

@@ -14,7 +14,7 @@ namespace {
 class Estimator : public testing::TestWithParam<EstimatorStudy> {};
 
 TEST_P(Estimator, ComesNearTheCramerRaoBoundAndKnowsItsError) {
-  const int sets = test::counted(60, 500);
+  const int sets = test::counted(40, 500);
   const double slack = test::fullCounts() ? 0 : 3;
   const StudyFigures figures = figuresOf(GetParam(), sets, 0);
   EXPECT_EQ(figures.refused, 0);
@@ -25,7 +25,7 @@ TEST_P(Estimator, ComesNearTheCramerRaoBoundAndKnowsItsError) {
 }
 
 TEST_P(Estimator, IsNotMisledByATenthOfGrossErrors) {
-  const int sets = test::counted(60, 500);
+  const int sets = test::counted(40, 500);
   const StudyFigures figures = figuresOf(GetParam(), sets, 0.1);
   EXPECT_EQ(figures.refused, 0);
   EXPECT_LE(figures.ratio, 1.5 + (test::fullCounts() ? 0 : 3 / std::sqrt(2.0 * sets)));

@@ -33,22 +33,13 @@ std::string verdictIn(const std::string& page) {
   return page.substr(from, page.find('<', from) - from);
 }
 
-/// The shipped breast; in a short check a quarter of its area, with one lump of two kinds at most.
-std::string breast(const Folder& here) {
-  const std::filesystem::path assets = std::filesystem::path(PALPA_SOURCE_DIR) / "assets";
-  const std::filesystem::path shipped = assets / "tasks/palpation_breast.json";
-  if (test::fullCounts()) return shipped.string();
-  nlohmann::json task = nlohmann::json::parse(contentOf(shipped));
-  task["lumps"] = (assets / "materials/lumps.json").string();
-  task["area"]["half_across_mm"] = task["area"]["half_away_mm"] = 15;
-  task["cases"]["lumps"] = {0.25, 0.75};
-  task["cases"]["kinds"] = {"large", "hard"};
-  return here.file("small_breast.json", task.dump());
-}
-
 /// Verdicts over so many sets.
 std::vector<std::string> examined(const std::string& examiner, int sets, const Folder& here) {
-  const std::string task = breast(here);
+  // In a short check a quarter of the shipped area, with one lump of two kinds at most.
+  const nlohmann::json small{{"area", {{"half_across_mm", 15}, {"half_away_mm", 15}}},
+                             {"cases", {{"lumps", {0.25, 0.75}}, {"kinds", {"large", "hard"}}}}};
+  const std::string task =
+      taskWith("palpation_breast", test::fullCounts() ? nlohmann::json::object() : small, here);
   std::vector<std::string> verdicts;
   for (int set = 0; set < sets; ++set) {
     const std::string out = "set" + std::to_string(set), seed = std::to_string(30001 + 8 * set);

@@ -91,9 +91,14 @@ TEST(Palpation, TheLiversEdgeIsNoLump) {
 /// pushed for it is in the ticks, which run again the same.
 TEST(Palpation, ARealLumpIsTakenAwayInSomeCases) {
   const Folder here;
-  const Outcome outcome = palpa({"palpation", "--preset", "taken", "--operator", "expert", "--seed",
-                                 "1", "--trials", "4", "--fast", "--no-views", "--out", "taken"},
-                                here.path());
+  const std::string near_the_lump = taskWith(
+      "palpation_taken",
+      {{"area", {{"half_across_mm", 15}, {"half_away_mm", 15}}}, {"cases", {{"lumps", {1}}}}},
+      here);
+  const Outcome outcome =
+      palpa({"palpation", "--task", near_the_lump, "--operator", "expert", "--seed", "1",
+             "--trials", "4", "--fast", "--no-views", "--tracking", "model", "--out", "taken"},
+            here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "N/m would be passive"));
   EXPECT_LT(outcome.out.find("N/m would be passive"), outcome.out.find("report.html"));

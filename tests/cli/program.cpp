@@ -206,15 +206,29 @@ std::string quickStation(const std::string& shipped) {
 
 std::vector<std::string> quickly(std::vector<std::string> words) {
   const std::string command = words.front();
+  const auto has = [&](const char* option) {
+    return std::find(words.begin(), words.end(), option) != words.end();
+  };
   std::vector<std::string> more{"--fast", "--no-views", "--quiet"};
-  if (command != "train" && std::find(words.begin(), words.end(), "--station") == words.end()) {
+  if (command != "train" && !has("--station")) {
     const std::string station = command == "paracentesis" ? "virtual_bench.json"
                                 : command == "search"     ? "search_bench.json"
                                                           : "palpation_bench.json";
     more.insert(more.end(), {"--station", quickStation(station)});
+    if (!has("--camera") && !has("--record-video"))
+      more.insert(more.end(), {"--tracking", "model"});
   }
   words.insert(words.begin() + 1, more.begin(), more.end());
   return words;
+}
+
+std::string taskWith(const std::string& shipped, const nlohmann::json& changes,
+                     const Folder& here) {
+  const fs::path tasks = fs::path(PALPA_SOURCE_DIR) / "assets/tasks";
+  nlohmann::json task = nlohmann::json::parse(contentOf(tasks / (shipped + ".json")));
+  task["lumps"] = (tasks / task["lumps"].get<std::string>()).lexically_normal().string();
+  task.merge_patch(changes);
+  return here.file("changed_" + shipped + ".json", task.dump());
 }
 
 std::vector<std::string> session(const std::vector<std::string>& more) {

@@ -85,11 +85,14 @@ inline constexpr const char* kShortTrial = "41";
 std::string quickStation(const std::string& shipped);
 
 /// The arguments of a quick session of `words`, a command and its options: virtual time, no views,
-/// no progress, and few pictures, where they name no station. (`train` may be of any task, and is
-/// given none.)
+/// no progress, and the board tracked by a model instead of in pictures, where they name no station
+/// and keep no pictures. (`train` may be of any task, and is given no station.)
 std::vector<std::string> quickly(std::vector<std::string> words);
 
 /// The same of a simulated expert with a needle.
 std::vector<std::string> session(const std::vector<std::string>& more);
+
+/// The file of a shipped task ("palpation_breast") with these changes (RFC 7386).
+std::string taskWith(const std::string& shipped, const nlohmann::json& changes, const Folder& here);
 
 }  // namespace palpa::cli_test

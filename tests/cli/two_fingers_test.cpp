@@ -278,10 +278,19 @@ Agreement agreement(const std::filesystem::path& csv, const json& laws) {
   return all;
 }
 
+/// A part of the shipped breast that is searched sooner, with two lumps.
+std::string smallBreast(const Folder& here) {
+  return taskWith(
+      "palpation_breast",
+      {{"area", {{"half_across_mm", 18}, {"half_away_mm", 18}}},
+       {"cases", {{"lumps", {0, 0, 1}}, {"apart_mm", 24}, {"kinds", {"large", "hard"}}}}},
+      here);
+}
+
 TEST(TwoFingers, SearchRollAndFeelWhatSeparateCodeComputes) {
   const Folder here;
-  const Outcome session = palpa(quickly({"palpation", "--tools", "2", "--operator", "expert",
-                                         "--seed", "2402", "--out", "A"}),
+  const Outcome session = palpa(quickly({"palpation", "--task", smallBreast(here), "--tools", "2",
+                                         "--operator", "expert", "--seed", "2402", "--out", "A"}),
                                 here.path());
   ASSERT_EQ(session.exit_code, 0) << session.err;
   EXPECT_TRUE(says(session.out, "Found both lumps")) << session.out;
@@ -291,7 +300,7 @@ TEST(TwoFingers, SearchRollAndFeelWhatSeparateCodeComputes) {
   ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
   const Agreement found =
       agreement(here / "ticks.csv", json::parse(contentOf(here / "ticks.laws.json")));
-  EXPECT_GT(found.ticks, 100'000);
+  EXPECT_GT(found.ticks, 50'000);
   EXPECT_GT(found.both, 1000) << "each of both lumps is rolled for 2.4 s";
   EXPECT_GT(found.most_N, 0.1);
   // Both solvers leave 1 uN in the balance; 155 mN without the second finger's part in it.
@@ -303,9 +312,10 @@ TEST(TwoFingers, SearchRollAndFeelWhatSeparateCodeComputes) {
 /// the guide's script.
 TEST(TwoFingers, ATrackedFingersForceIsEstimatedAndCalledSo) {
   const Folder here;
-  const Outcome session = palpa(quickly({"palpation", "--tools", "2", "--second", "finger",
-                                         "--operator", "expert", "--seed", "2402", "--out", "A"}),
-                                here.path());
+  const Outcome session =
+      palpa(quickly({"palpation", "--task", smallBreast(here), "--tools", "2", "--second", "finger",
+                     "--operator", "expert", "--seed", "2402", "--out", "A"}),
+            here.path());
   ASSERT_EQ(session.exit_code, 0) << session.err;
   const std::string page = contentOf(here / "A/report.html");
   EXPECT_TRUE(says(page, "The second finger&#39;s force is estimated")) << "below its curve";

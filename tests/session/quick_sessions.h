@@ -16,10 +16,11 @@ inline SessionOptions quick(OperatorKind who, std::uint64_t seed = 1) {
   options.seed = seed;
   options.fast = options.no_views = options.quiet = true;
   options.display = scene::Display::offscreen;
+  options.tracking = Tracking::model;
   return options;
 }
 
-/// Pictures change no score; the ready check needs some.
+/// Pictures change no score; sessions whose board is tracked in them draw few.
 template <typename World>
 struct Quick : World {
   explicit Quick(const SessionOptions& options) : World(options) {

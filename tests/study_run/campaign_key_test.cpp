@@ -148,9 +148,8 @@ TEST_F(OwnAssets, ThatDoNotCountAreNotRead) {
                                                        {"palpation_breast", "palpation_bench"},
                                                        {"bone_pin", "virtual_bench"}};
   for (const auto& [task, bench] : sessions) {
-    json station = json::parse(slurped(kAssets / "stations" / (std::string(bench) + ".json")));
-    station["camera"]["rate_Hz"] = 1;
-    put("station.json", station);
+    put("station.json",
+        json::parse(slurped(kAssets / "stations" / (std::string(bench) + ".json"))));
     const fs::path file =
         put("campaign.json", {{"version", 1},
                               {"id", task},
@@ -158,6 +157,7 @@ TEST_F(OwnAssets, ThatDoNotCountAreNotRead) {
                               {"tasks", {std::string("assets/tasks/") + task + ".json"}},
                               {"station", "station.json"},
                               {"operators", {"expert"}},
+                              {"settings", {{{"name", "usual"}, {"tracking", "model"}}}},
                               {"seeds", {{"from", 41}, {"count", 1}}}});
     const std::string out = task, bare = out + "-bare";
     ASSERT_EQ(Runner(options(file, out), here_ / (out + ".txt")).wait().failure, "") << task;

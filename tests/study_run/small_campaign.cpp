@@ -35,16 +35,17 @@ fs::path SmallCampaign::put(const std::string& name, const json& file) const {
 }
 
 fs::path SmallCampaign::comparisons(int seeds) const {
-  return put(
-      "campaign.json",
-      {{"version", 1},
-       {"id", "comparisons"},
-       {"title", "Comparisons"},
-       {"tasks", {(kAssets / "tasks/squeeze.json").string()}},
-       {"station", "station.json"},
-       {"operators", {"expert", "novice"}},
-       {"seeds", {{"from", 1}, {"count", seeds}}},
-       {"settings", {{{"name", "touch"}}, {{"name", "no_touch"}, {"force_feedback", false}}}}});
+  return put("campaign.json",
+             {{"version", 1},
+              {"id", "comparisons"},
+              {"title", "Comparisons"},
+              {"tasks", {(kAssets / "tasks/squeeze.json").string()}},
+              {"station", "station.json"},
+              {"operators", {"expert", "novice"}},
+              {"seeds", {{"from", 1}, {"count", seeds}}},
+              {"settings",
+               {{{"name", "touch"}, {"tracking", "model"}},
+                {{"name", "no_touch"}, {"force_feedback", false}, {"tracking", "model"}}}}});
 }
 
 CampaignOptions SmallCampaign::options(const fs::path& file, const std::string& out) const {
