@@ -1,8 +1,8 @@
 # What was added to a real thing (another stiffness, friction, texture, weight), computed once more
 # from what
 #   palpa export out/A/session.palpa --out ticks.csv
-# writes of palpation, friction, pulse and squeeze: Jeon, Choi and Harders (2015), (10.4), (10.11) to
-# (10.14), (10.21); texture: haptics/materials/texture.h. What is held between two tools is judged by
+# writes of palpation, friction, pulse and squeeze: Jeon, Choi and Harders (2015), (10.4), (10.11)
+# to (10.14), (10.21); texture: haptics/materials/texture.h. What is held by two tools is told by
 # both sensors' readings alone; else by the normal, the depth and the sliding that the export says.
 #   python3 docs/check_touch.py ticks.csv
 import bisect, csv, json, math, sys
@@ -134,7 +134,7 @@ def pressed(r):
         kept.pop("rubs", None)
         return
     ticks += 1
-    if max(map(abs, of(r, "f_taken_D"))) == 0:
+    if "f_taken_D_x_N" not in r or max(map(abs, of(r, "f_taken_D"))) == 0:
         wanted = surface["factor"] * f_n
         if surface["constant_N_per_m"] > 0:
             wanted = surface["constant_N_per_m"] * float(r["indentation_m"])

@@ -22,8 +22,7 @@ constexpr double kDiscMargin = 2;  // U around a disc
 
 report::MapValues mapOf(const task_search::SquareMap& map) {
   const double half = map.side / 2;
-  return {map.size,     map.size,     map.x - half, map.x + half,
-          map.y - half, map.y + half, map.values};
+  return {map.size, map.size, map.x - half, map.x + half, map.y - half, map.y + half, map.values};
 }
 
 report::TexturedDisc discOf(const haptics::SearchSurface& surface, int element) {
@@ -107,9 +106,9 @@ ShownEpisode chosenOf(const std::vector<ShownEpisode>& all, int number) {
   });
   if (found != all.end()) return *found;
   if (number == 0 && !all.empty()) return all.front();
-  throw Error(number > 0 ? "has no finished episode " + std::to_string(number)
-                         : "has no finished episode",
-              "session", "Choose another one");
+  throw Error(
+      number > 0 ? "has no finished episode " + std::to_string(number) : "has no finished episode",
+      "session", "Choose another one");
 }
 
 int chosenElement(const std::string& scores_json) {
@@ -130,8 +129,8 @@ report::SearchFigures searchFigures(const record::SessionReader& reader, int num
     throw Error("is no search: it has no floor to be drawn", "session",
                 "Give the session of palpa search; --pictures draws every other");
   const ShownEpisode shown = chosenOf(finishedEpisodes(reader), number);
-  const task_search::SearchSettings task = task_search::readSearch(
-      JsonFile::ofText(reader.info().task_json, "the recorded task"));
+  const task_search::SearchSettings task =
+      task_search::readSearch(JsonFile::ofText(reader.info().task_json, "the recorded task"));
   report::SearchFigures figures;
   figures.trial = shown.trial.header.trial;
   figures.mode = assess::name(shown.episode.mode);

@@ -15,8 +15,7 @@ std::string dictionaryOf(const record::SessionInfo& info) {
 
 }  // namespace
 
-SessionExport exportSession(const record::SessionReader& reader,
-                            const std::filesystem::path& csv) {
+SessionExport exportSession(const record::SessionReader& reader, const std::filesystem::path& csv) {
   const auto beside = [&](const char* ending) {
     return std::filesystem::path(csv).replace_extension(ending);
   };

@@ -14,9 +14,9 @@ struct SessionExport {
 };
 
 /// Writes three files, all or none: `csv`, every tick (record::exportTicks) with what its force is
-/// made of, as running it again tells; beside it the dictionary of its columns (.columns.txt) and the
-/// session's laws (.laws.json). A tick that could not be run again, or comes out changed, has its
-/// recorded columns alone. Nothing is written into the session. Throws Error.
+/// made of, as running it again tells; beside it the dictionary of its columns (.columns.txt) and
+/// the session's laws (.laws.json). A tick that could not be run again, or comes out changed, has
+/// its recorded columns alone. Nothing is written into the session. Throws Error.
 SessionExport exportSession(const record::SessionReader& reader, const std::filesystem::path& csv);
 
 }  // namespace palpa::evidence

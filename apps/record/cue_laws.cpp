@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "apps/record/force_columns.h"
@@ -10,9 +12,9 @@ using haptics::Augmentation;
 using nlohmann::json;
 
 const char* kindWord(haptics::AugmentationKind kind) {
-  static constexpr const char* kWords[] = {"none",    "pulse",  "vibration", "attraction",
-                                           "exaggeration", "fixture", "relief", "keep_out",
-                                           "steadying"};
+  static constexpr const char* kWords[] = {"none",       "pulse",        "vibration",
+                                           "attraction", "exaggeration", "fixture",
+                                           "relief",     "keep_out",     "steadying"};
   const auto index = static_cast<std::size_t>(kind);
   return index < std::size(kWords) ? kWords[index] : "?";
 }
@@ -46,13 +48,16 @@ json jsonOf(const haptics::Condition& condition) {
 
 json partOf(const haptics::Subtask& part, const NamedForExport& named) {
   json conditions = json::array();
-  for (std::size_t i = 0; i < part.count; ++i) conditions.push_back(jsonOf(part.conditions[i]));
+  for (std::size_t i = 0; i < std::min<std::size_t>(part.count, part.conditions.size()); ++i)
+    conditions.push_back(jsonOf(part.conditions[i]));
   return {{"name", named.name}, {"means", named.means}, {"on", conditions}};
 }
 
-/// Figures of the plan as the device had it; those that a kind has no use for are 0 or as by default.
-json cueOf(const Augmentation& cue, const NamedForExport& named) {
+/// Figures of the plan as the device had it; those that a kind has no use for are 0 or as by
+/// default.
+json cueOf(const Augmentation& cue, const NamedForExport& named, const std::string& column) {
   json told{{"name", named.name},
+            {"column", column},
             {"means", named.means},
             {"kind", kindWord(cue.kind)},
             {"trigger", triggerWord(cue.trigger)},
@@ -106,10 +111,10 @@ nlohmann::json cueLaws(const SessionReader& reader) {
   const haptics::AugmentationPlan& plan = config.augmentations;
   const TaskNames names = namesIn(info);
   json parts = json::array(), cues = json::array();
-  for (std::size_t i = 0; i < plan.subtasks.count; ++i)
+  for (std::size_t i = 0; i < names.parts.size(); ++i)
     parts.push_back(partOf(plan.subtasks.each[i], names.parts[i]));
-  for (std::size_t i = 0; i < plan.count; ++i)
-    cues.push_back(cueOf(plan.each[i], names.cues[i]));
+  for (std::size_t i = 0; i < names.cues.size(); ++i)
+    cues.push_back(cueOf(plan.each[i], names.cues[i], cueColumn(i)));
   json laws{{"period_s", 1e-9 * static_cast<double>(config.period_ns)},
             {"adds_up", addsUp(info)},
             {"limits",

@@ -33,6 +33,9 @@ std::vector<ForceColumn> forceColumns(const SessionInfo& info);
 /// Which columns add up to which: {"f_contact_D": ["f_body_D"], ...}; see haptics::TickForces.
 nlohmann::json addsUp(const SessionInfo& info);
 
+/// The name of an augmentation's force, without axis and unit.
+std::string cueColumn(std::size_t i);
+
 /// Limits, parts, augmentations; of a search the floor.
 nlohmann::json cueLaws(const SessionReader& reader);
 

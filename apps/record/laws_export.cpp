@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/error.h"
 #include "apps/record/force_columns.h"
 
 namespace palpa::record {
@@ -17,6 +18,9 @@ json jsonOf(const PackedPose& X) { return {{"p_m", X.p}, {"q_wxyz", X.q}}; }
 
 /// Of haptics/materials/texture.h: rows of forces, in them nodes of rising speed.
 json textureOf(const haptics::TextureLaw& law) {
+  if (law.speeds > law.ln_speed.size() || law.forces > law.ln_force.size() ||
+      law.order > haptics::kMostTextureOrder)
+    throw Error("has a texture that cannot be", "session", "Restore the file from a backup");
   json nodes = json::array();
   for (std::size_t f = 0; f < law.forces; ++f) {
     json row = json::array();
@@ -141,9 +145,9 @@ std::string lawsJson(const SessionReader& reader) {
   const haptics::TickConfig& config = reader.info().tick_config;
   json laws = cueLaws(reader);
   laws["about"] =
-      "Laws of the session's forces; SI units. adds_up: which columns of the ticks add up to "
-      "which; "
-      "f_command = rendered (f_contact + f_augmentation) + f_held + f_damping + f_limiter";
+      "Laws of the session's forces; SI units. adds_up: which columns of the ticks a force is made "
+      "of: f_contact and f_augmentation of theirs alone, f_wanted of both of these times rendered "
+      "and its own, f_command of f_wanted and its own";
   if (config.contact_mode != haptics::ContactMode::sensed_object) return laws.dump(1);
   const std::optional<haptics::PairConfig>& pair = reader.info().pair_config;
   laws.update({{"about_the_real",

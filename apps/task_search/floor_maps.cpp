@@ -53,8 +53,7 @@ SquareMap responseMap(const FloorHeights& height, int direction, int scale, int 
   if (shown < 1 || map_px % shown != 0)
     throw Error("is no divisor of " + std::to_string(map_px), "pixels of a response",
                 "Show half or a quarter of them");
-  const cv::Mat response =
-      filtered(heightMap(height, map_px, side), gaborKernel(direction, scale));
+  const cv::Mat response = filtered(heightMap(height, map_px, side), gaborKernel(direction, scale));
   return {shown, side, 0, 0, thinnedBy(response, map_px / shown)};
 }
 

@@ -8,10 +8,10 @@ namespace palpa::task_search {
 /// A quantity over a square of a floor, for pictures: rows from the smallest y on, in each from the
 /// smallest x; a value stands for its pixel's middle. Lengths in U, in F.
 struct SquareMap {
-  int size = 0;                ///< pixels a side
-  double side = 0;             ///< U
-  double x = 0, y = 0;         ///< its middle
-  std::vector<float> values;   ///< size x size
+  int size = 0;               ///< pixels a side
+  double side = 0;            ///< U
+  double x = 0, y = 0;        ///< its middle
+  std::vector<float> values;  ///< size x size
 };
 
 /// Height at (x, y), both in U.

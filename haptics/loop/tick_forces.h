@@ -7,8 +7,8 @@
 
 namespace palpa::haptics {
 
-/// What the force of a tick is made of, and what its parts were computed from. Not recorded: whoever
-/// runs a recorded tick again has it. Frame D, N, m; zero where there is none.
+/// What the force of a tick is made of, and what its parts were computed from. Not recorded:
+/// whoever runs a recorded tick again has it. Frame D, N, m; zero where there is none.
 ///   f_contact      = body + stiffness + friction + weight + taken + texture + lumps
 ///   f_augmentation = pulse + sum of cues
 ///   f_wanted       = rendered (f_contact + f_augmentation) + held + damping
@@ -27,9 +27,9 @@ struct TickForces {
   Vec3 damping = Vec3::Zero();  ///< of the passivity control
   double rendered = 0;          ///< 0 to 1, by the age of the geometry; 0 without force feedback
 
-  Vec3 normal = Vec3::Zero();  ///< unit, outward, of the real object as it is estimated
-  Vec3 slid = Vec3::Zero();    ///< how far the tip slid over it in this tick
-  Vec3 up = Vec3::Zero();      ///< unit: the way of cues that push up
+  Vec3 normal = Vec3::Zero();      ///< unit, outward, of the real object as it is estimated
+  Vec3 slid = Vec3::Zero();        ///< how far the tip slid over it in this tick
+  Vec3 up = Vec3::Zero();          ///< unit: the way of cues that push up
   Vec3 on_floor_U = Vec3::Zero();  ///< the probe in F, U
   double footprint = 0;            ///< 0 to 1: of the highest bump, the one under the probe
   Vec3 to_valley = Vec3::Zero();   ///< along the floor

@@ -105,12 +105,12 @@ void drawBar(Html& svg, const MapPlot& plot, const MapRoom& room) {
 
 void drawInto(Html& html, const MapPlot& plot, const DrawOver& over, const std::string& style) {
   const MapRoom room(plot.map);
-  const auto svg = html.in(
-      "svg", {{"xmlns", "http://www.w3.org/2000/svg"},
-              {"class", "chart map"},
-              {"viewBox", "0 0 " + coordinate(room.width) + ' ' + coordinate(room.height)},
-              {"role", "img"},
-              {"aria-label", plot.label}});
+  const auto svg =
+      html.in("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                      {"class", "chart map"},
+                      {"viewBox", "0 0 " + coordinate(room.width) + ' ' + coordinate(room.height)},
+                      {"role", "img"},
+                      {"aria-label", plot.label}});
   if (!style.empty()) html.element("style", style);
   html.element("title", plot.label);
   putPicture(html, room.x.from_px, room.y.to_px, kMapSide, room.y.from_px - room.y.to_px,
@@ -136,7 +136,8 @@ std::string mapColour(double value, double largest) {
 
 std::string mapPng(const MapValues& map, double largest) {
   if (map.columns < 1 || map.rows < 1 || !(largest > 0) ||
-      map.values.size() != static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows))
+      map.values.size() !=
+          static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows))
     throw Error("does not have as many values as pixels", "a map", "Make it again");
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, map.columns, map.rows),
@@ -146,8 +147,8 @@ std::string mapPng(const MapValues& map, double largest) {
   const int stride = cairo_image_surface_get_stride(surface.get());
   for (int j = 0; bytes && j < map.rows; ++j) {
     auto* row = reinterpret_cast<std::uint32_t*>(bytes + static_cast<std::ptrdiff_t>(stride) * j);
-    const std::size_t first = static_cast<std::size_t>(map.rows - 1 - j) *
-                              static_cast<std::size_t>(map.columns);
+    const std::size_t first =
+        static_cast<std::size_t>(map.rows - 1 - j) * static_cast<std::size_t>(map.columns);
     for (std::size_t i = 0; i < static_cast<std::size_t>(map.columns); ++i)
       row[i] = pixelOf(static_cast<double>(map.values[first + i]), largest);
   }

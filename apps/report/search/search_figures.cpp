@@ -92,13 +92,14 @@ void drawWay(Html& svg, const SearchFigures& f, const Axis& x, const Axis& y) {
 }
 
 std::string textureWords(const char* whose, const TexturedDisc& disc) {
-  return std::string("Texture of ") + whose + ": hemispheres of radius " +
-         trimmed(disc.bump_U, 2) + " U on a grid of " + trimmed(disc.grid_U, 2) +
+  return std::string("Texture of ") + whose + ": hemispheres of radius " + trimmed(disc.bump_U, 2) +
+         " U on a grid of " + trimmed(disc.grid_U, 2) +
          " U, each moved by chance within a square of " + trimmed(disc.jitter_U, 2) + " U.";
 }
 
 std::string filterWords(const EdgeFilter& filter) {
-  return "The filter that tells where the floor rises, one of 160: an antisymmetric Gabor filter of "
+  return "The filter that tells where the floor rises, one of 160: an antisymmetric Gabor filter "
+         "of "
          "the direction " +
          fixed(filter.direction_rad, 3) + " rad, σ = " + trimmed(filter.sigma_U, 2) +
          " U, γ = " + trimmed(filter.aspect, 2) + ".";
@@ -115,19 +116,26 @@ std::vector<FloorFigure> figuresOf(const SearchFigures& f) {
        "1 U is " +
            trimmed(f.unit_mm, 3) + " mm in the hand. (Source: figure 1.)"},
       {"texture-target.svg",
-       heightPlot(f.target.heights, "Heights of the target's texture", deep), {},
+       heightPlot(f.target.heights, "Heights of the target's texture", deep),
+       {},
        textureWords("the target", f.target) + " (Source: figure 3 a.)"},
       {"texture-distractor.svg",
-       heightPlot(f.distractor.heights, "Heights of a distractor's texture", deep), {},
+       heightPlot(f.distractor.heights, "Heights of a distractor's texture", deep),
+       {},
        textureWords("the distractors", f.distractor) + " (Source: figure 3 b.)"},
-      {"floor.svg", heightPlot(f.floor, "Heights of the floor as it is felt", deep), {},
+      {"floor.svg",
+       heightPlot(f.floor, "Heights of the floor as it is felt", deep),
+       {},
        "The floor as it is felt, with texture. (Source: figure 4 a.)"},
       {"filter.svg",
-       {f.filter.values, "Edge filter", "U", "of its largest", -1, 1, 1}, {},
+       {f.filter.values, "Edge filter", "U", "of its largest", -1, 1, 1},
+       {},
        filterWords(f.filter) + " (Source: figure 5.)"},
       {"response.svg",
-       {f.response, "Response of the floor to the filter", "U", "response, U", -most, most, most}, {},
-       "The response of the floor without texture to this filter: orange where it rises, blue where "
+       {f.response, "Response of the floor to the filter", "U", "response, U", -most, most, most},
+       {},
+       "The response of the floor without texture to this filter: orange where it rises, blue "
+       "where "
        "it falls, for a probe that moves fast in that direction. Where it rises most a cue pushes. "
        "(Source: figure 4 b.)"}};
   if (!f.way.empty())
@@ -152,10 +160,11 @@ constexpr const char* kOverStyle =
 }  // namespace
 
 std::string searchFiguresStyle() {
-  return std::string(".maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(280px,1fr));"
-                     "gap:28px 32px}.maps svg{max-width:480px}"
-                     "svg .map-frame{fill:none;stroke:var(--muted)}"
-                     "svg text.on-map{fill:#18212b}") +
+  return std::string(
+             ".maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(280px,1fr));"
+             "gap:28px 32px}.maps svg{max-width:480px}"
+             "svg .map-frame{fill:none;stroke:var(--muted)}"
+             "svg text.on-map{fill:#18212b}") +
          kOverStyle + '\n';
 }
 

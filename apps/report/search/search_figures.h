@@ -37,8 +37,8 @@ struct ProbePlace {
 /// over it. Lengths in U. After Edmunds and Pai (2012), figures 1, 3, 4 and 5.
 struct SearchFigures {
   int trial = 0;
-  std::string mode;    ///< "degraded"
-  double unit_mm = 0;  ///< of one U, in the hand
+  std::string mode;         ///< "degraded"
+  double unit_mm = 0;       ///< of one U, in the hand
   MapValues smooth, floor;  ///< without texture, with it
   TexturedDisc target, distractor;
   EdgeFilter filter;
