@@ -8,8 +8,7 @@ namespace palpa::haptics {
 
 /// What a tick's force is made of adds up to what was recorded of it, where nothing is limited.
 inline void expectAddsUp(const FlightRecord& record, const TickForces& f) {
-  const Vec3 contact =
-      f.body + f.stiffness + f.friction + f.weight + f.taken + f.texture + f.lumps;
+  const Vec3 contact = f.body + f.stiffness + f.friction + f.weight + f.taken + f.texture + f.lumps;
   Vec3 added = f.pulse;
   for (const Vec3& cue : f.cues) added += cue;
   constexpr double kClose = 1e-12;  // N: sums in another order
