@@ -106,7 +106,7 @@ ShownEpisode chosenOf(const std::vector<ShownEpisode>& all, int number) {
   });
   if (found != all.end()) return *found;
   if (number == 0 && !all.empty()) return all.front();
-  throw Error(
+  throw UsageError(
       number > 0 ? "has no finished episode " + std::to_string(number) : "has no finished episode",
       "session", "Choose another one");
 }
@@ -126,8 +126,8 @@ bool hasSearchFigures(const record::SessionReader& reader) {
 
 report::SearchFigures searchFigures(const record::SessionReader& reader, int number) {
   if (engineOf(reader) != training::Engine::search)
-    throw Error("is no search: it has no floor to be drawn", "session",
-                "Give the session of palpa search; --pictures draws every other");
+    throw UsageError("is no search: there is no floor to be drawn", "session",
+                     "Give the session of palpa search; --pictures shows trials of every task");
   const ShownEpisode shown = chosenOf(finishedEpisodes(reader), number);
   const task_search::SearchSettings task =
       task_search::readSearch(JsonFile::ofText(reader.info().task_json, "the recorded task"));

@@ -7,7 +7,7 @@ namespace palpa::evidence {
 
 /// Pictures of a searched floor as its evidence has it, and of the probe's way over it. `trial` 0:
 /// the first finished episode in which a cue could be felt, else the first that was finished.
-/// Throws Error for a session that searched no floor, and for a trial that it does not have or
+/// Throws UsageError for a session that searched no floor, and for a trial that it does not have or
 /// finish.
 report::SearchFigures searchFigures(const record::SessionReader& reader, int trial = 0);
 

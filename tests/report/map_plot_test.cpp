@@ -74,7 +74,8 @@ TEST(MapPlot, HasAxesBarAndWhatIsDrawnOverItAndStandsAlone) {
     svgText(over, "on-map", x.at(15), y.at(0), "here");
   });
   EXPECT_EQ(test::faultOf(svg), "");
-  for (const char* words : {"<style>", "x, U", "y, U", "height, U", ">here<", ">30<", "A &lt;ramp&gt;"})
+  for (const char* words :
+       {"<style>", "x, U", "y, U", "height, U", ">here<", ">30<", "A &lt;ramp&gt;"})
     EXPECT_NE(svg.find(words), std::string::npos) << words;
   Html page;
   drawMap(page, plot);
