@@ -13,7 +13,7 @@
 namespace palpa::evidence {
 namespace {
 
-constexpr int kFloorPixels = 480, kDiscPixels = 270;
+constexpr int kSmoothPixels = 320, kFloorPixels = 480, kDiscPixels = 270;
 constexpr int kMostResponsePixels = 512;
 /// The source's figure 5: 0.589 rad, sigma = 2^4 px.
 constexpr int kShownDirection = 3, kShownScale = 4;
@@ -36,12 +36,14 @@ report::TexturedDisc discOf(const haptics::SearchSurface& surface, int element) 
           bumps.jitter};
 }
 
-/// The largest divisor of the map's pixels that is not too many.
-int shownPixels(int map_px) {
-  int each = 1;
-  while (map_px / each > kMostResponsePixels || map_px % each != 0) ++each;
-  return map_px / each;
-}
+/// The filter that is shown, on a map that is not larger than a picture: half the pixels and a
+/// scale less are the same filter on the floor.
+struct ShownFilter {
+  int pixels, scale = kShownScale;
+  explicit ShownFilter(int map_px) : pixels(map_px) {
+    for (; pixels > kMostResponsePixels && pixels % 2 == 0 && scale > 0; --scale) pixels /= 2;
+  }
+};
 
 void drawFloor(const task_search::SearchSettings& task, const task_search::Episode& episode,
                report::SearchFigures* figures) {
@@ -52,16 +54,18 @@ void drawFloor(const task_search::SearchSettings& task, const task_search::Episo
   };
   const int target = surface.stimulus().target,
             other = (target + 1) % haptics::SearchSurface::kElements;
-  figures->smooth = mapOf(task_search::mapOf(smooth, kFloorPixels, side));
+  figures->smooth = mapOf(task_search::mapOf(smooth, kSmoothPixels, side));
   figures->floor = mapOf(task_search::mapOf(
       [&](double x, double y) { return surface.height(x, y); }, kFloorPixels, side));
   figures->target = discOf(surface, target);
   figures->distractor = discOf(surface, other);
-  figures->filter = {mapOf(task_search::filterMap(kShownDirection, kShownScale, task.map_px, side)),
-                     2 * std::numbers::pi * kShownDirection / haptics::GaborTable::kDirections,
-                     (1 << kShownScale) * side / task.map_px, kShownAspect};
-  figures->response = mapOf(task_search::responseMap(smooth, kShownDirection, kShownScale,
-                                                     task.map_px, side, shownPixels(task.map_px)));
+  const ShownFilter filter(task.map_px);
+  figures->filter = {
+      mapOf(task_search::filterMap(kShownDirection, filter.scale, filter.pixels, side)),
+      2 * std::numbers::pi * kShownDirection / haptics::GaborTable::kDirections,
+      (1 << filter.scale) * side / filter.pixels, kShownAspect};
+  figures->response =
+      mapOf(task_search::responseMap(smooth, kShownDirection, filter.scale, filter.pixels, side));
   for (int e = 0; e < haptics::SearchSurface::kElements; ++e)
     figures->elements.push_back({surface.middle(e)[0], surface.middle(e)[1], e == target, false});
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/base/error.h"
 #include "apps/task_search/valley_lines.h"
 
 namespace palpa::task_search {
@@ -16,19 +15,6 @@ std::vector<float> valuesOf(const cv::Mat& map) {
     const float* row = map.ptr<float>(j);
     values.insert(values.end(), row, row + map.cols);
   }
-  return values;
-}
-
-/// Means of squares of `each` pixels a side.
-std::vector<float> thinnedBy(const cv::Mat& map, int each) {
-  std::vector<float> values;
-  for (int j = 0; j + each <= map.rows; j += each)
-    for (int i = 0; i + each <= map.cols; i += each) {
-      double sum = 0;
-      for (int dj = 0; dj < each; ++dj)
-        for (int di = 0; di < each; ++di) sum += static_cast<double>(map.at<float>(j + dj, i + di));
-      values.push_back(static_cast<float>(sum / (each * each)));
-    }
   return values;
 }
 
@@ -48,13 +34,10 @@ SquareMap filterMap(int direction, int scale, int map_px, double side) {
   return {kernel.cols, kernel.cols * side / map_px, 0, 0, values};
 }
 
-SquareMap responseMap(const FloorHeights& height, int direction, int scale, int map_px, double side,
-                      int shown) {
-  if (shown < 1 || map_px % shown != 0)
-    throw Error("is no divisor of " + std::to_string(map_px), "pixels of a response",
-                "Show half or a quarter of them");
-  const cv::Mat response = filtered(heightMap(height, map_px, side), gaborKernel(direction, scale));
-  return {shown, side, 0, 0, thinnedBy(response, map_px / shown)};
+SquareMap responseMap(const FloorHeights& height, int direction, int scale, int map_px,
+                      double side) {
+  const cv::Mat map = heightMap(height, map_px, side);
+  return {map_px, side, 0, 0, valuesOf(filtered(map, gaborKernel(direction, scale)))};
 }
 
 }  // namespace palpa::task_search

@@ -23,9 +23,8 @@ SquareMap mapOf(const FloorHeights& height, int size, double side, double x = 0,
 /// Values of its largest one: -1 to 1.
 SquareMap filterMap(int direction, int scale, int map_px, double side);
 
-/// What that filter makes of a height field, U: `filtered` on a map of `map_px`, shown with `shown`
-/// pixels a side (a divisor of `map_px`), each the mean of those that it stands for.
-SquareMap responseMap(const FloorHeights& height, int direction, int scale, int map_px, double side,
-                      int shown);
+/// What that filter makes of a height field, U: `filtered` on a map of `map_px` a side.
+SquareMap responseMap(const FloorHeights& height, int direction, int scale, int map_px,
+                      double side);
 
 }  // namespace palpa::task_search
