@@ -50,6 +50,7 @@ class Rubbing:  # Dahl's friction on the surface that is to be felt
         self.F = [0, 0, 0]
 
     def drag(self, slid, n, f_n, factor, dt):
+        slid = plus(slid, n, -dot(slid, n))
         most, way = rough["mu"] * factor * f_n, math.hypot(*slid)
         if most <= 0:
             self.F = [0, 0, 0]

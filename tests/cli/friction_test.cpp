@@ -145,7 +145,7 @@ TEST(Friction, TheExportHoldsTheFrictionThatWasAskedForAndFelt) {
   for (const auto& [factor, sums] : rubbed)
     EXPECT_NEAR(sums.first / sums.second, factor * once, 0.2 * factor * once) << factor;
   if (!pythonIsThere()) GTEST_SKIP() << "no Python (Debian: python3)";
-  const ScriptVerdict laws = checkedBy("check_touch.py", here);
+  const ScriptVerdict laws = checkedBy("check_touch.py", here, 12000);
   EXPECT_GT(laws.ticks, 5000);
   EXPECT_LT(laws.worst_mN, 1);
   for (const char* what : {"stiffness", "friction", "texture"})

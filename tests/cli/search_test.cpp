@@ -138,7 +138,7 @@ TEST(Search, TheExportAddsUpAndTheFloorIsDrawn) {
   ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
   EXPECT_TRUE(says(contentOf(here / "ticks.columns.txt"), "f_cue_2_D_x_N: added: the cue valley"));
   if (!pythonIsThere()) GTEST_SKIP() << "no Python (Debian: python3)";
-  const ScriptVerdict verdict = checkedBy("check_ticks.py", here);
+  const ScriptVerdict verdict = checkedBy("check_ticks.py", here, 7000);
   EXPECT_GT(verdict.ticks, 4000);
   EXPECT_LT(verdict.worst_mN, 1) << verdict.said;
 }

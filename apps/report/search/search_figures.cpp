@@ -68,6 +68,11 @@ std::string lineOf(const std::vector<ProbePlace>& way, const Axis& x, const Axis
 void drawWay(Html& svg, const SearchFigures& f, const Axis& x, const Axis& y) {
   const double left = x.from_px + 8;
   double line = y.from_px - 10;
+  std::vector<std::size_t> felt;
+  for (std::size_t i = 0; i < f.cues.size(); ++i)
+    if (std::any_of(f.way.begin(), f.way.end(),
+                    [i](const ProbePlace& p) { return p.cues >> i & 1u; }))
+      felt.push_back(i);
   const auto entry = [&](const std::string& css, const std::string& words) {
     svgLine(svg, css, left, line - 4, left + 26, line - 4);
     svgText(svg, "on-map", left + 32, line, words);
@@ -83,10 +88,10 @@ void drawWay(Html& svg, const SearchFigures& f, const Axis& x, const Axis& y) {
         lineOf(f.way, x, y, [i](const ProbePlace& p) { return p.cues >> i & 1u; }));
   for (const ElementMark& e : f.elements)
     if (e.chosen) svgPath(svg, "chosen", markPath(Tone::good, x.at(e.x), y.at(e.y), 9));
-  for (std::size_t i = f.cues.size(); i-- > 0;)
-    if (std::any_of(f.way.begin(), f.way.end(),
-                    [i](const ProbePlace& p) { return p.cues >> i & 1u; }))
-      entry("way cue-" + std::to_string(i), "cue: " + f.cues[i]);
+  const double high = 17 * static_cast<double>(felt.size() + 2) + 6;
+  svgRect(svg, "key", x.from_px + 3, y.from_px - 3 - high, 148, high);
+  for (auto i = felt.rbegin(); i != felt.rend(); ++i)
+    entry("way cue-" + std::to_string(*i), "cue: " + f.cues[*i]);
   entry("way air", "above the floor");
   entry("way", "on the floor");
 }
@@ -155,13 +160,15 @@ constexpr const char* kOverStyle =
     ".way.cue-1{stroke:#009E73;stroke-width:3;stroke-dasharray:7 4}"
     ".way.cue-2{stroke:#CC79A7;stroke-width:4;stroke-dasharray:1 5}"
     ".way.cue-3{stroke:#0072B2;stroke-width:3;stroke-dasharray:9 3 1 3}"
+    ".key{fill:#fff;fill-opacity:.85}"
     ".chosen{fill:none;stroke:#18212b;stroke-width:2.5}";
 
 }  // namespace
 
 std::string searchFiguresStyle() {
   return std::string(
-             ".maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(280px,1fr));"
+             ".maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(380px,100%),1fr))"
+             ";"
              "gap:28px 32px}.maps svg{max-width:480px}"
              "svg .map-frame{fill:none;stroke:var(--muted)}"
              "svg text.on-map{fill:#18212b}") +
