@@ -125,7 +125,8 @@ def pressed(r):
     kept = state.setdefault((r["tool"], r["trial"]), {})
     dt = min(1e-9 * (int(r["t_ns"]) - then.get(r["tool"], 0)), 0.005)
     then[r["tool"]] = int(r["t_ns"])
-    n, slid, f_n = of(r, "normal_D", ""), of(r, "slid_D", "_m"), float(r["skin_force_N"])
+    n, f_n = of(r, "normal_D", ""), float(r["skin_force_N"])
+    slid = of(r, "slid_D", "_m") if rough or texture else [0, 0, 0]
     touching = math.hypot(*n) > 0
     if texture:
         shaking = kept.setdefault("shakes", Shaking())

@@ -16,8 +16,8 @@
 namespace palpa::report {
 namespace {
 
-constexpr double kMapLeft = 58, kMapTop = 30, kMapSide = 330, kMapFoot = 52, kBarGap = 20,
-                 kBarWide = 16, kBarWords = 56;  // px
+constexpr double kMapLeft = 58, kMapTop = 30, kMapSide = 330, kBarGap = 20, kBarWide = 16,
+                 kBarWords = 56;  // px
 constexpr int kBarSteps = 64;
 
 struct MapHue {
@@ -62,12 +62,13 @@ void putPicture(Html& svg, double x, double y, double width, double height,
 struct MapRoom {
   Axis x, y;
   double width = 0, height = 0;
-  explicit MapRoom(const MapValues& map) {
+  explicit MapRoom(const MapPlot& plot) {
+    const MapValues& map = plot.map;
     const double high = kMapSide * (map.y_to - map.y_from) / (map.x_to - map.x_from);
     x = {map.x_from, map.x_to, kMapLeft, kMapLeft + kMapSide};
     y = {map.y_from, map.y_to, kMapTop + high, kMapTop};
     width = x.to_px + kBarGap + kBarWide + kBarWords;
-    height = y.from_px + kMapFoot;
+    height = y.from_px + kMapFoot + plot.foot_px;
   }
 };
 
@@ -104,7 +105,7 @@ void drawBar(Html& svg, const MapPlot& plot, const MapRoom& room) {
 }
 
 void drawInto(Html& html, const MapPlot& plot, const DrawOver& over, const std::string& style) {
-  const MapRoom room(plot.map);
+  const MapRoom room(plot);
   const auto svg =
       html.in("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                       {"class", "chart map"},

@@ -26,7 +26,10 @@ struct MapPlot {
   std::string quantity;      ///< of the bar, with its unit: "height, U"
   double from = -1, to = 1;  ///< of the bar
   double largest = 1;        ///< > 0
+  double foot_px = 0;        ///< room below the axis for what `over` draws there, from kMapFoot on
 };
+
+inline constexpr double kMapFoot = 52;  ///< px: of ticks and title below the map
 
 /// "#rrggbb" of a value; beyond the largest as there, "#808080" for what is no number.
 std::string mapColour(double value, double largest);

@@ -12,6 +12,7 @@ namespace palpa::report {
 namespace {
 
 constexpr double kStepOfWay = 0.4;  // U: between the points of a line that is drawn
+constexpr double kKeyRow = 20;      // px
 constexpr double kPale = 5;         // U: of a floor that lies under something else
 
 struct FloorFigure {
@@ -65,19 +66,21 @@ std::string lineOf(const std::vector<ProbePlace>& way, const Axis& x, const Axis
   return d;
 }
 
-void drawWay(Html& svg, const SearchFigures& f, const Axis& x, const Axis& y) {
-  const double left = x.from_px + 8;
-  double line = y.from_px - 10;
-  std::vector<std::size_t> felt;
+/// Below the map, in two columns.
+void drawWayKey(Html& svg, const SearchFigures& f, const Axis& x, const Axis& y) {
+  std::vector<std::pair<std::string, std::string>> entries{{"way", "on the floor"},
+                                                           {"way air", "above the floor"}};
   for (std::size_t i = 0; i < f.cues.size(); ++i)
-    if (std::any_of(f.way.begin(), f.way.end(),
-                    [i](const ProbePlace& p) { return p.cues >> i & 1u; }))
-      felt.push_back(i);
-  const auto entry = [&](const std::string& css, const std::string& words) {
-    svgLine(svg, css, left, line - 4, left + 26, line - 4);
-    svgText(svg, "on-map", left + 32, line, words);
-    line -= 17;
-  };
+    entries.emplace_back("way cue-" + std::to_string(i), "cue: " + f.cues[i]);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double left = x.from_px + (i % 2 == 0 ? 0 : 180),
+                 line = y.from_px + kMapFoot + kKeyRow * (static_cast<double>(i / 2) + 0.8);
+    svgLine(svg, entries[i].first, left, line - 4, left + 26, line - 4);
+    svgText(svg, "label", left + 34, line, entries[i].second);
+  }
+}
+
+void drawWay(Html& svg, const SearchFigures& f, const Axis& x, const Axis& y) {
   const auto put = [&](const std::string& css, const std::string& d) {
     if (!d.empty()) svgPath(svg, css, d);
   };
@@ -88,12 +91,7 @@ void drawWay(Html& svg, const SearchFigures& f, const Axis& x, const Axis& y) {
         lineOf(f.way, x, y, [i](const ProbePlace& p) { return p.cues >> i & 1u; }));
   for (const ElementMark& e : f.elements)
     if (e.chosen) svgPath(svg, "chosen", markPath(Tone::good, x.at(e.x), y.at(e.y), 9));
-  const double high = 17 * static_cast<double>(felt.size() + 2) + 6;
-  svgRect(svg, "key", x.from_px + 3, y.from_px - 3 - high, 148, high);
-  for (auto i = felt.rbegin(); i != felt.rend(); ++i)
-    entry("way cue-" + std::to_string(*i), "cue: " + f.cues[*i]);
-  entry("way air", "above the floor");
-  entry("way", "on the floor");
+  drawWayKey(svg, f, x, y);
 }
 
 std::string textureWords(const char* whose, const TexturedDisc& disc) {
@@ -143,11 +141,13 @@ std::vector<FloorFigure> figuresOf(const SearchFigures& f) {
        "where "
        "it falls, for a probe that moves fast in that direction. Where it rises most a cue pushes. "
        "(Source: figure 4 b.)"}};
-  if (!f.way.empty())
-    all.push_back({"way.svg", heightPlot(f.smooth, "The probe's way over the floor", kPale),
-                   [&f](Html& svg, const Axis& x, const Axis& y) { drawWay(svg, f, x, y); },
-                   "The probe's way in episode " + std::to_string(f.trial) + " (" + f.mode +
-                       "), and where which cue added force. Ring: the element that was chosen."});
+  if (f.way.empty()) return all;
+  MapPlot way = heightPlot(f.smooth, "The probe's way over the floor", kPale);
+  way.foot_px = kKeyRow * static_cast<double>((f.cues.size() + 3) / 2);
+  all.push_back({"way.svg", way,
+                 [&f](Html& svg, const Axis& x, const Axis& y) { drawWay(svg, f, x, y); },
+                 "The probe's way in episode " + std::to_string(f.trial) + " (" + f.mode +
+                     "), and where which cue added force. Ring: the element that was chosen."});
   return all;
 }
 
@@ -160,7 +160,6 @@ constexpr const char* kOverStyle =
     ".way.cue-1{stroke:#009E73;stroke-width:3;stroke-dasharray:7 4}"
     ".way.cue-2{stroke:#CC79A7;stroke-width:4;stroke-dasharray:1 5}"
     ".way.cue-3{stroke:#0072B2;stroke-width:3;stroke-dasharray:9 3 1 3}"
-    ".key{fill:#fff;fill-opacity:.85}"
     ".chosen{fill:none;stroke:#18212b;stroke-width:2.5}";
 
 }  // namespace
