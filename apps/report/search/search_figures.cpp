@@ -75,7 +75,7 @@ void drawWayKey(Html& svg, const SearchFigures& f, const Axis& x, const Axis& y)
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const double left = x.from_px + (i % 2 == 0 ? 0 : 180),
                  line = y.from_px + kMapFoot + kKeyRow * (static_cast<double>(i / 2) + 0.8);
-    svgLine(svg, entries[i].first, left, line - 4, left + 26, line - 4);
+    svgLine(svg, entries[i].first + " key", left, line - 4, left + 26, line - 4);
     svgText(svg, "label", left + 34, line, entries[i].second);
   }
 }
@@ -170,7 +170,9 @@ std::string searchFiguresStyle() {
              ";"
              "gap:28px 32px}.maps svg{max-width:480px}"
              "svg .map-frame{fill:none;stroke:var(--muted)}"
-             "svg text.on-map{fill:#18212b}") +
+             "svg text.on-map{fill:#18212b}"
+             "@media screen and (prefers-color-scheme: dark)"
+             "{svg .way.key:not([class*=cue]){stroke:#e8ebee}}") +
          kOverStyle + '\n';
 }
 
