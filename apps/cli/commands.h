@@ -77,6 +77,7 @@ struct ReplayViewOptions {
   bool view = false;
   std::string video;     ///< film to write
   std::string pictures;  ///< folder for single pictures; both empty: a window
+  std::string figures;   ///< folder for figures of a search's floor
   std::string size = "1280x720";
   int trial = 0;                            ///< 0: the first that was finished
   double speed = 1, from_s = 0, to_s = -1;  ///< of the trial; -1: to its end
@@ -89,5 +90,7 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& options);
 /// Plays a trial of any task's session in a window, or writes it as a film or as single pictures.
 /// Throws UsageError for a trial that is not there, Error where there is no display.
 void viewReplay(const std::string& file, const ReplayViewOptions& options);
+/// Stimulus, texture, response and way of a search's episode into `options.figures`. Throws Error.
+void writeReplayFigures(const std::string& file, const ReplayViewOptions& options);
 
 }  // namespace palpa::cli

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -8,10 +7,10 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
-#include "anatomy/base/whole_file.h"
 #include "apps/cli/commands.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
+#include "apps/evidence/session_export.h"
 #include "apps/record/session_file.h"
 #include "apps/session/finish_session.h"
 #include "apps/training/engine.h"
@@ -186,54 +185,62 @@ void addReplay(CLI::App& program) {
       "Examples:\n  palpa replay out/paracentesis-20260301-120000/session.palpa\n  palpa replay "
       "out/A/session.palpa --view --trial 2 --speed 0.5\n  palpa replay out/A/session.palpa "
       "--video trial.mp4\n  palpa replay out/A/session.palpa --pictures moments --fps 5 --size "
-      "960x540");
+      "960x540\n  palpa replay out/search/session.palpa --figures figures --trial 2");
   const auto file = std::make_shared<std::string>();
   const auto seen = std::make_shared<ReplayViewOptions>();
   command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
   addReplayViewOptions(*command, *seen);
   command->callback([file, seen, command] {
-    if (seen->view + !seen->video.empty() + !seen->pictures.empty() > 1)
-      throw UsageError("do not go together", "--view, --video and --pictures", "Give one of them");
+    const bool figures = !seen->figures.empty();
+    if (seen->view + !seen->video.empty() + !seen->pictures.empty() + figures > 1)
+      throw UsageError("do not go together", "--view, --video, --pictures and --figures",
+                       "Give one of them");
     for (const char* option : {"--trial", "--speed", "--from", "--to", "--fps", "--size"})
-      if (!seen->wanted() && command->count(option) > 0)
+      if (!seen->wanted() && command->count(option) > 0 &&
+          !(figures && option == std::string("--trial")))
         throw UsageError("has an effect only when a trial is shown again", option,
                          "Add --view, --video FILE or --pictures DIR");
-    if (seen->wanted())
+    if (figures)
+      writeReplayFigures(*file, *seen);
+    else if (seen->wanted())
       viewReplay(*file, *seen);
     else
       replay(*file);
   });
 }
 
+namespace {
+
+constexpr const char* kExportExamples = R"(Examples:
+  palpa export out/A/session.palpa --out ticks.csv
+      ticks.csv: every tick, with every force that was added, the parts and cues that were on, and
+      where they were; ticks.columns.txt says what its columns are, ticks.laws.json by which laws
+  python3 docs/check_ticks.py ticks.csv
+      adds every force up and computes the cues again
+What a force is made of is not in the record: the ticks are run again for it, as palpa replay does.)";
+
+}  // namespace
+
 void addExport(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("export", "Write a session's 1 kHz samples as CSV, with a dictionary");
-  command->footer("Example:\n  palpa export out/A/session.palpa --out ticks.csv");
+  command->footer(kExportExamples);
   const auto file = std::make_shared<std::string>(),
              out = std::make_shared<std::string>("ticks.csv");
   command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
   command->add_option("--out", *out, "CSV to write")->type_name("FILE");
   command->callback([file, out] {
-    const record::SessionReader reader(*file);
-    WrittenTogether written;
-    record::exportTicks(reader, *out);
-    const std::string dictionary =
-        std::filesystem::path(*out).replace_extension("columns.txt").string();
-    std::string words;
-    for (const record::TickColumn& column : record::tickColumns())
-      words += column.name + (": " + column.meaning) + '\n';
-    writeWhole(dictionary, words);
-    const std::string laws = record::lawsJson(reader),
-                      laws_file =
-                          std::filesystem::path(*out).replace_extension("laws.json").string();
-    std::error_code not_there;
-    if (laws.empty())
-      std::filesystem::remove(laws_file, not_there);  // of another session
-    else
-      writeWhole(laws_file, laws + '\n');
-    written.keep();
-    std::printf("Written: %s, %s%s\n", out->c_str(), dictionary.c_str(),
-                laws.empty() ? "" : (", " + laws_file).c_str());
+    const evidence::SessionExport exported =
+        evidence::exportSession(record::SessionReader(*file), *out);
+    const std::int64_t alone =
+        exported.check.recorded - exported.check.ticks + exported.check.changed;
+    if (alone > 0)
+      std::printf(
+          "%lld ticks could not be run again, or came out changed: what their force is made "
+          "of is empty\n",
+          static_cast<long long>(alone));
+    std::printf("Written: %s, %s, %s\n", exported.files[0].c_str(), exported.files[1].c_str(),
+                exported.files[2].c_str());
   });
 }
 

@@ -10,6 +10,7 @@
 #include "anatomy/base/whole_file.h"
 #include "apps/cli/values.h"
 #include "apps/evidence/recorded_show.h"
+#include "apps/evidence/search_figures.h"
 #include "apps/live/port.h"
 #include "apps/os/signals.h"
 #include "apps/replay/film.h"
@@ -166,6 +167,12 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
           "--pictures", o.pictures,
           "Write single pictures into this folder (JPEG), and what happened when (pictures.json)")
       ->type_name("DIR");
+  command
+      .add_option(
+          "--figures", o.figures,
+          "Of a search: draw the floor's stimulus, texture, the edge filter and the response "
+          "to it, and the probe's way over it, into this folder (SVG, and figures.html)")
+      ->type_name("DIR");
   command.add_option("--trial", o.trial, "Which trial; default: the first that was finished")
       ->check(inRange(1, 100000));
   command.add_option("--speed", o.speed, "1: as fast as recorded")
@@ -177,6 +184,16 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
   command.add_option("--fps", o.frames_per_second, "Pictures per second")
       ->check(inRange(1.0, 120.0, "a second"));
   command.add_option("--size", o.size, "Size of the pictures, pixels")->type_name("WxH");
+}
+
+void writeReplayFigures(const std::string& file, const ReplayViewOptions& o) {
+  const record::SessionReader reader(file);
+  const report::SearchFigures figures = evidence::searchFigures(reader, o.trial);
+  session::OutputFolder output(o.figures, "figures");
+  const std::vector<std::string> names = report::writeFigureFiles(figures, output.path());
+  output.keep();
+  std::printf("Written: %s (episode %d: figures.html, and %s)\n", output.path().c_str(),
+              figures.trial, counted(names.size() - 1, "picture").c_str());
 }
 
 void viewReplay(const std::string& file, const ReplayViewOptions& o) {

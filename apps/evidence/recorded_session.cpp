@@ -178,7 +178,8 @@ std::array<double, 13> comparedOf(const haptics::FlightRecord& r) {
   return all;
 }
 
-void count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& again,
+/// Whether the force is the recorded one, but for rounding.
+bool count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& again,
            ReplayCheck* check) {
   ++check->ticks;
   Likeness found = sameWords(recorded, again) ? Likeness::same_bits : Likeness::changed;
@@ -188,10 +189,12 @@ void count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& a
     found = worse(found, likeness(was[i], is[i]));
     largest = std::max(largest, std::abs(was[i] - is[i]));
   }
-  if (found == Likeness::same_bits) return;
+  if (found == Likeness::same_bits) return true;
   if (check->different++ == 0) check->first_difference = recorded.tick;
   if (found == Likeness::rounding) check->largest = std::max(check->largest, largest);
-  if (found == Likeness::changed && check->changed++ == 0) check->first_change = recorded.tick;
+  if (found != Likeness::changed) return true;
+  if (check->changed++ == 0) check->first_change = recorded.tick;
+  return false;
 }
 
 }  // namespace
@@ -205,35 +208,41 @@ Likeness ReplayCheck::likeness() const {
 namespace {
 
 /// Two devices in one tick: from the first tick on, while none is missing.
-ReplayCheck replayPairs(const record::SessionReader& reader) {
+ReplayCheck replayPairs(const record::SessionReader& reader, const record::VisitTick& visit) {
   const haptics::PairConfig& config = *reader.info().pair_config;
   ReplayCheck check;
   const auto state = std::make_unique<haptics::PairState>();
   std::optional<haptics::FlightRecord> first;
+  const auto lost = [&](const haptics::FlightRecord& recorded) {
+    if (first) visit(*first, nullptr);
+    first.reset();
+    visit(recorded, nullptr);
+  };
   reader.ticks([&](const haptics::FlightRecord& recorded) {
     ++check.recorded;
-    if (check.gaps > 0) return;
+    const bool follows = recorded.tool == 0 ? !first && recorded.tick == state->tools[0].tick
+                                            : first && first->tick == recorded.tick;
+    if (check.gaps == 0 && !follows) ++check.gaps;
+    if (check.gaps > 0) return lost(recorded);
     if (recorded.tool == 0) {
-      if (first || recorded.tick != state->tools[0].tick) ++check.gaps;
       first = recorded;
       return;
     }
-    if (!first || first->tick != recorded.tick) {
-      ++check.gaps;
-      return;
-    }
+    std::array<haptics::TickForces, 2> forces;
     const std::array<haptics::FlightRecord, 2> again =
         haptics::tickPair(config, *state, {first->reading, recorded.reading}, first->commands,
-                          recorded.t_ns, {first->sensed, recorded.sensed});
-    count(*first, again[0], &check);
-    count(recorded, again[1], &check);
+                          recorded.t_ns, {first->sensed, recorded.sensed}, &forces);
+    visit(*first, count(*first, again[0], &check) ? &forces[0] : nullptr);
+    visit(recorded, count(recorded, again[1], &check) ? &forces[1] : nullptr);
     first.reset();
   });
+  if (first) visit(*first, nullptr);
   return check;
 }
 
 ReplayCheck replaySingle(const record::SessionReader& reader,
-                         const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
+                         const std::function<const haptics::Floor*(std::uint32_t number)>& floors,
+                         const record::VisitTick& visit) {
   std::unordered_map<std::uint64_t, LocalGeometry> snapshots;
   reader.snapshots([&](const LocalGeometry& g) { snapshots[g.number] = g; });
   std::unordered_map<std::int64_t, haptics::TickState> keyframes;
@@ -252,16 +261,17 @@ ReplayCheck replaySingle(const record::SessionReader& reader,
       if (aligned && state.tick != recorded.tick) ++check.gaps;
       const auto keyframe = keyframes.find(recorded.tick);
       aligned = keyframe != keyframes.end();
-      if (!aligned) return;  // wait for the next keyframe
+      if (!aligned) return visit(recorded, nullptr);  // wait for the next keyframe
       state = keyframe->second;
       differed = check.different;
     }
     const auto snapshot = snapshots.find(recorded.snapshot);
+    haptics::TickForces forces;
     const haptics::FlightRecord again = haptics::tick(
         config, state, recorded.reading, snapshot == snapshots.end() ? nullptr : &snapshot->second,
         recorded.commands, recorded.t_ns, recorded.sensed,
-        floors && recorded.commands.floor ? floors(recorded.commands.floor) : nullptr);
-    count(recorded, again, &check);
+        floors && recorded.commands.floor ? floors(recorded.commands.floor) : nullptr, &forces);
+    visit(recorded, count(recorded, again, &check) ? &forces : nullptr);
   });
   return check;
 }
@@ -269,8 +279,10 @@ ReplayCheck replaySingle(const record::SessionReader& reader,
 }  // namespace
 
 ReplayCheck replayTicks(const record::SessionReader& reader,
-                        const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
-  return reader.info().pair_config ? replayPairs(reader) : replaySingle(reader, floors);
+                        const std::function<const haptics::Floor*(std::uint32_t number)>& floors,
+                        const record::VisitTick& visit) {
+  const record::VisitTick each = visit ? visit : [](const auto&, const auto*) {};
+  return reader.info().pair_config ? replayPairs(reader, each) : replaySingle(reader, floors, each);
 }
 
 namespace {

@@ -16,6 +16,7 @@
 #include "apps/record/session_file.h"
 #include "apps/task_needle/task_file.h"
 #include "calibration/expert_path.h"
+#include "haptics/loop/tick_forces.h"
 
 namespace palpa::evidence {
 
@@ -104,10 +105,13 @@ struct ReplayCheck {
   std::int64_t gaps = 0;  ///< ticks missing in the record; the state is then taken from a keyframe
   Likeness likeness() const;  ///< of the forces
 };
-/// `floors`: of a search, by number; null where there is none.
+/// `floors`: of a search, by number; null where there is none. `visit`, where it is given, is
+/// called with every recorded tick in order, and what its force is made of: null for a tick that
+/// could not be run again, or came out changed.
 ReplayCheck replayTicks(
     const record::SessionReader& reader,
-    const std::function<const haptics::Floor*(std::uint32_t number)>& floors = {});
+    const std::function<const haptics::Floor*(std::uint32_t number)>& floors = {},
+    const record::VisitTick& visit = {});
 
 /// Whether the forces in a record add up, over all its trials; none where the device measured
 /// neither hand nor itself. Throws Error for a description that is damaged.

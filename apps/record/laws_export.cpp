@@ -2,7 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/record/session_file.h"
+#include "anatomy/base/error.h"
+#include "apps/record/force_columns.h"
 
 namespace palpa::record {
 namespace {
@@ -15,6 +16,33 @@ json jsonOf(const haptics::Dahl& law) {
 }
 json jsonOf(const PackedPose& X) { return {{"p_m", X.p}, {"q_wxyz", X.q}}; }
 
+/// Of haptics/materials/texture.h: rows of forces, in them nodes of rising speed.
+json textureOf(const haptics::TextureLaw& law) {
+  if (law.speeds > law.ln_speed.size() || law.forces > law.ln_force.size() ||
+      law.order > haptics::kMostTextureOrder)
+    throw Error("has a texture that cannot be", "session", "Restore the file from a backup");
+  json nodes = json::array();
+  for (std::size_t f = 0; f < law.forces; ++f) {
+    json row = json::array();
+    for (std::size_t v = 0; v < law.speeds; ++v) {
+      const haptics::TextureNode& node = law.nodes[f][v];
+      const auto end = node.reflection.begin() + law.order;
+      row.push_back({{"ln_rms_N", node.ln_rms},
+                     {"reflection", std::vector<double>(node.reflection.begin(), end)}});
+    }
+    nodes.push_back(row);
+  }
+  const auto first = [](const auto& row, std::size_t count) {
+    return std::vector<double>(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  return {{"ln_speed_m_per_s", first(law.ln_speed, law.speeds)},
+          {"ln_force_N", first(law.ln_force, law.forces)},
+          {"nodes", nodes},
+          {"leak", haptics::kTextureLeak},
+          {"still_m_per_s", haptics::kTextureStill},
+          {"largest_N", law.largest}};
+}
+
 json surfaceOf(const haptics::TouchAugmentation& touch) {
   const haptics::StiffnessModulation& contact = touch.surface.contact;
   json surface{{"H", jsonOf(contact.real)},
@@ -24,6 +52,7 @@ json surfaceOf(const haptics::TouchAugmentation& touch) {
                {"constant_N_per_m", contact.target.constant},
                {"least_contact_N", contact.least_contact}};
   if (touch.other_friction) surface["wanted_friction"] = jsonOf(touch.surface.wanted);
+  if (touch.texture.speeds > 0) surface["texture"] = textureOf(touch.texture);
   return surface;
 }
 
@@ -114,19 +143,23 @@ json estimateOf(const haptics::PairConfig& pair) {
 
 std::string lawsJson(const SessionReader& reader) {
   const haptics::TickConfig& config = reader.info().tick_config;
-  if (config.contact_mode != haptics::ContactMode::sensed_object) return "";
+  json laws = cueLaws(reader);
+  laws["about"] =
+      "Laws of the session's forces; SI units. adds_up: which columns of the ticks a force is made "
+      "of: f_contact and f_augmentation of theirs alone, f_wanted of both of these times rendered "
+      "and its own, f_command of f_wanted and its own";
+  if (config.contact_mode != haptics::ContactMode::sensed_object) return laws.dump(1);
   const std::optional<haptics::PairConfig>& pair = reader.info().pair_config;
-  json laws{{"about",
-             "What is added to a real thing, frame P of which the lumps' places are; SI units. "
-             "H, H_T, G: f = x^m max(k + b x', k / 10). mu and B of wanted_friction: times the "
-             "ticks' friction. Equations: Jeon, Choi and Harders, Haptic "
-             "augmented reality (2015), 10.4 to 10.21"},
-            {"period_s", 1e-9 * static_cast<double>(config.period_ns)},
-            {"tip_radius_m", config.touch.tip_radius},
-            {"X_DP", json::array({jsonOf(config.X_DP)})},
-            {"surface", surfaceOf(config.touch)},
-            {"kinds", kindsOf(config.touch)},
-            {"lumps", lumpsOf(reader)}};
+  laws.update({{"about_the_real",
+                "What is added to a real thing, frame P of which the lumps' places are. H, H_T, G: "
+                "f = x^m max(k + b x', k / 10). mu and B of wanted_friction: times the ticks' "
+                "friction. Equations: Jeon, Choi and Harders, Haptic augmented reality (2015), "
+                "10.4 to 10.21"},
+               {"tip_radius_m", config.touch.tip_radius},
+               {"X_DP", json::array({jsonOf(config.X_DP)})},
+               {"surface", surfaceOf(config.touch)},
+               {"kinds", kindsOf(config.touch)},
+               {"lumps", lumpsOf(reader)}});
   if (json arteries = arteriesOf(reader); !arteries.empty()) {
     laws["pulse"] = pulseOf(config.pulse);
     laws["arteries"] = std::move(arteries);

@@ -9,6 +9,7 @@
 
 #include "apps/runtime/flight_sink.h"
 #include "haptics/loop/tick_config.h"
+#include "haptics/loop/tick_forces.h"
 #include "haptics/loop/tick_state.h"
 
 namespace palpa::record {
@@ -87,16 +88,26 @@ struct TickColumn {
   std::string name, meaning;
 };
 
-/// The dictionary of `exportTicks`, in the order of the columns.
-std::vector<TickColumn> tickColumns();
+/// The dictionary of a session's `exportTicks`, in the order of the columns: one vector for each of
+/// its task's augmentations.
+std::vector<TickColumn> tickColumns(const SessionInfo& info);
 
-/// Every recorded tick as one line of comma-separated values under a header line; for statistics
-/// programs. Written beside, then renamed. Throws Error.
-void exportTicks(const SessionReader& reader, const std::filesystem::path& file);
+/// Takes a recorded tick, and what its force is made of: null where that is not known.
+using VisitTick =
+    std::function<void(const haptics::FlightRecord& tick, const haptics::TickForces* forces)>;
+/// Passes every tick of a session on, in order.
+using TickSource = std::function<void(const VisitTick& visit)>;
 
-/// The laws by which a session added to a real thing, as JSON, with the lumps of its trials: with
-/// the ticks what they added (`f_contact_D`) can be computed again, by the equations of
-/// haptics/modulation; cues are not among them. Empty where nothing real was touched. SI units.
+/// Every tick as one line of comma-separated values under a header line; for statistics programs.
+/// The record has not what a force is made of: those columns are empty where the source does not
+/// say it. Written beside, then renamed. Throws Error.
+void exportTicks(const SessionReader& reader, const TickSource& ticks,
+                 const std::filesystem::path& file);
+
+/// The laws of a session as JSON, SI units: limits, the task's parts and augmentations with their
+/// figures; of a search how its floor is rendered; where something real was touched what was added
+/// to it, by the equations of haptics/modulation, with the lumps of its trials. With the ticks
+/// every force can be computed again.
 std::string lawsJson(const SessionReader& reader);
 
 /// What a walk calls, trial by trial in the order of their numbers. All three must be given.

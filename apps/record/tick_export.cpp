@@ -1,7 +1,6 @@
-#include "apps/record/session_file.h"
+#include "apps/record/force_columns.h"
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <string_view>
 
@@ -11,11 +10,6 @@ namespace palpa::record {
 namespace {
 
 using haptics::FlightRecord;
-
-std::string shortest(double value) {  // round-trips to the same bits, in any locale
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof(text), value).ptr};
-}
 
 const char* word(haptics::NeedlePhase phase) {
   static constexpr const char* kWords[] = {"outside", "indenting", "inserted"};
@@ -240,15 +234,24 @@ void addSensed(std::vector<ExportColumn>& columns) {
        }});
 }
 
+/// ": 1 scan, 2 shape, 4 identify".
+std::string bitsOf(const std::vector<NamedForExport>& names) {
+  std::string words;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    words += (i == 0 ? ": " : ", ") + std::to_string(1u << i) + ' ' + names[i].name;
+  return words;
+}
+
 /// What was added to it all, by which of the task's augmentations, in which of its parts.
-void addCues(std::vector<ExportColumn>& columns) {
+void addCues(std::vector<ExportColumn>& columns, const TaskNames& names) {
   addVector(columns, "f_augmentation_D", "N",
             "of all augmentations and the pulse together, device base",
             &FlightRecord::f_augmentation_D);
-  columns.push_back({{"parts", "bits of the task's parts that are on, in its file's order"},
+  columns.push_back({{"parts", "bits of the task's parts that are on" + bitsOf(names.parts)},
                      [](const FlightRecord& r) { return std::to_string(r.subtasks); }});
-  columns.push_back({{"cues", "bits of the task's augmentations that add force, in that order"},
-                     [](const FlightRecord& r) { return std::to_string(r.augmenting); }});
+  columns.push_back(
+      {{"cues", "bits of the task's augmentations that add force" + bitsOf(names.cues)},
+       [](const FlightRecord& r) { return std::to_string(r.augmenting); }});
   columns.push_back({{"cues_begun", "of these, those that were triggered in this tick"},
                      [](const FlightRecord& r) { return std::to_string(r.began); }});
   columns.push_back(
@@ -297,40 +300,45 @@ void addStates(std::vector<ExportColumn>& columns) {
                      [](const FlightRecord& r) { return std::to_string(r.skin_punctures); }});
 }
 
-std::vector<ExportColumn> allColumns(const haptics::TickConfig& config) {
+std::vector<ExportColumn> recordColumns(const SessionInfo& info) {
   std::vector<ExportColumn> columns;
   addClock(columns);
   addReading(columns);
-  addTip(columns, config);
+  addTip(columns, info.tick_config);
   addCommands(columns);
   addContact(columns);
   addSensed(columns);
-  addCues(columns);
+  addCues(columns, namesIn(info));
   addStates(columns);
   return columns;
 }
 
 }  // namespace
 
-std::vector<TickColumn> tickColumns() {
+std::vector<TickColumn> tickColumns(const SessionInfo& info) {
   std::vector<TickColumn> descriptions;
-  for (const ExportColumn& column : allColumns({})) descriptions.push_back(column.description);
+  for (const ExportColumn& column : recordColumns(info)) descriptions.push_back(column.description);
+  for (const ForceColumn& column : forceColumns(info)) descriptions.push_back(column.description);
   return descriptions;
 }
 
-void exportTicks(const SessionReader& reader, const std::filesystem::path& file) {
-  const std::vector<ExportColumn> columns = allColumns(reader.info().tick_config);
+void exportTicks(const SessionReader& reader, const TickSource& ticks,
+                 const std::filesystem::path& file) {
+  const std::vector<ExportColumn> columns = recordColumns(reader.info());
+  const std::vector<ForceColumn> forces = forceColumns(reader.info());
   WholeFile out(file);
   std::string line;
-  for (const ExportColumn& column : columns)
-    line += (line.empty() ? "" : ",") + column.description.name;
+  for (const TickColumn& column : tickColumns(reader.info()))
+    line += (line.empty() ? "" : ",") + column.name;
   out.write(line + '\n');
-  reader.ticks([&](const FlightRecord& record) {
+  ticks([&](const FlightRecord& record, const haptics::TickForces* known) {
     line.clear();
     for (const ExportColumn& column : columns) {
       if (!line.empty()) line += ',';
       line += column.value(record);
     }
+    for (const ForceColumn& column : forces)
+      line += ',' + (known ? column.value(record, *known) : "");
     out.write(line + '\n');
   });
   out.finish();

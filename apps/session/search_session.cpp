@@ -9,6 +9,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/parametric/phantoms.h"
+#include "apps/evidence/search_figures.h"
 #include "apps/report/search/search_report.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/session_facts.h"
@@ -208,14 +209,14 @@ ReportHead SearchWorld::head(const SessionOptions& options) const {
 
 void writeSearchResults(const ReportHead& head,
                         const std::vector<task_search::CompletedSearch>& trials,
-                        const ReportTail& tail, const std::filesystem::path& evidence) {
+                        const ReportTail& tail, const std::filesystem::path& session_file) {
   report::SearchReport page;
   std::vector<assess::SearchTrial> written;
   for (const task_search::CompletedSearch& trial : trials) {
     page.trials.push_back(trial.trial);
     if (counts(trial.trial)) written.push_back(trial.trial);
   }
-  const std::filesystem::path folder = evidence.parent_path();
+  const std::filesystem::path folder = session_file.parent_path();
   report::writeSearchCsv(head.user_id, written, folder / "trials.csv", head.doses);
   if (!head.page) return;
   page.title = head.title;
@@ -228,6 +229,8 @@ void writeSearchResults(const ReportHead& head,
   page.station = head.station;
   page.notes = tail.notes;
   page.unit_note = head.unit_note;
+  const record::SessionReader reader(session_file);
+  if (evidence::hasSearchFigures(reader)) page.figures = evidence::searchFigures(reader);
   report::writeSearchReport(page, folder / "report.html");
 }
 

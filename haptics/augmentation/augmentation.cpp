@@ -200,11 +200,13 @@ Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,
     const Vec3 f = forceOf(part, plan.steepest);
     if (f.squaredNorm() > 0) out.active |= 1u << i;
     out.f += f;
+    out.each[i] = f;
     if (!heedsMotion(part.a.kind)) out.f_source += f;
   }
   const double size = out.f.norm(), share = size > plan.largest ? plan.largest / size : 1;
   out.f *= share;
   out.f_source *= share;
+  for (Vec3& f : out.each) f *= share;
   return out;
 }
 

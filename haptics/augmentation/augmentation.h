@@ -116,6 +116,12 @@ static_assert(std::is_trivially_copyable_v<AugmentationState>);
 
 struct Augmented {
   Vec3 f = Vec3::Zero();  ///< N, on the tool
+  /// N, of each, bounded with the others: they add up to `f`
+  std::array<Vec3, kMostAugmentations> each = [] {
+    std::array<Vec3, kMostAugmentations> none;
+    none.fill(Vec3::Zero());
+    return none;
+  }();
   /// N, the part of `f` that heeds no motion: pulses, vibrations, reliefs. A source of its own,
   /// which the passivity observer leaves out of its account.
   Vec3 f_source = Vec3::Zero();

@@ -8,6 +8,22 @@
 namespace palpa::haptics {
 namespace {
 
+/// What one tool's force is made of, from P to D.
+void describeTouch(const TickConfig& config, const AugmentedTouch& now, std::size_t t,
+                   TickForces* forces) noexcept {
+  const Quat q_DP = unpack(config.X_DP.q).normalized();
+  const Modulated& touch = now.touch[t];
+  if (!now.taking) {
+    forces->stiffness = q_DP * Vec3(touch.f_d - touch.f_rub);
+    forces->friction = q_DP * touch.f_rub;
+  }
+  forces->taken = q_DP * now.f_taken[t];
+  forces->texture = q_DP * now.f_source[t];
+  forces->lumps = q_DP * now.f_lumps[t];
+  forces->slid = q_DP * touch.slid;
+  if (touch.contact) forces->normal = q_DP * touch.u_n;
+}
+
 /// One of the two descriptions of the contact: on the newest snapshot, or on the one before it.
 struct ContactView {
   const LocalGeometry& geometry;
@@ -58,6 +74,7 @@ NeedleContact touchedContact(const TickConfig& config, TickState& state, TickFra
       unpack(config.X_DP.q).normalized() *
       feelPulse(config.pulse, commands.artery, touch, frame.record.t_ns, dt, &state.pulse);
   frame.f_source_D += unpack(config.X_DP.q).normalized() * now.f_source[0];
+  describeTouch(config, now, 0, &frame.forces);
   return addedIn(config, now.f_d[0], now.touch[0].x, now.touch[0].f_n);
 }
 
@@ -72,7 +89,7 @@ NeedleContact contactNow(const TickConfig& config, TickState& state, const TickC
 
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
-                  const SensedForce& sensed, const Floor* floor) noexcept {
+                  const SensedForce& sensed, const Floor* floor, TickForces* forces) noexcept {
   TickFrame frame = beginTick(config, state, reading, latest, commands, now_ns, sensed);
   NeedleContact contact;
   if (frame.felt) {
@@ -81,8 +98,11 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
     contact = on_floor ? floorContact(config, state, floor, &frame, &touch)
                        : contactNow(config, state, commands, now_ns, frame);
     addAugmentations(config, state, contact, floor, on_floor ? &touch : nullptr, &frame);
+    if (config.contact_mode != ContactMode::sensed_object) frame.forces.body = contact.f_D;
   }
-  return finishTick(config, state, contact, frame);
+  const FlightRecord& record = finishTick(config, state, contact, frame);
+  if (forces) *forces = frame.forces;
+  return record;
 }
 
 namespace {
@@ -96,9 +116,12 @@ struct AddedForces {
 };
 
 AddedForces pressed(const PairConfig& config, PairState& state,
-                    const std::array<ToolTouch, 2>& tools, const PlacedLumps& lumps,
-                    double dt) noexcept {
-  const AugmentedTouch now = augmentTouch(config.tools[0].touch, lumps, tools, dt, &state.touch);
+                    const std::array<ToolTouch, 2>& tools,
+                    std::array<TickFrame, 2>* frames) noexcept {
+  const TickFrame& first = frames->front();
+  const AugmentedTouch now = augmentTouch(config.tools[0].touch, first.record.commands.lumps, tools,
+                                          first.input.dt, &state.touch);
+  for (std::size_t t = 0; t < 2; ++t) describeTouch(config.tools[t], now, t, &(*frames)[t].forces);
   return {now.f_d,
           {now.touch[0].x, now.touch[1].x},
           {now.touch[0].f_n, now.touch[1].f_n},
@@ -107,7 +130,9 @@ AddedForces pressed(const PairConfig& config, PairState& state,
 
 /// Where one of the tools is not believed it feels nothing: no contact.
 AddedForces squeezed(const PairConfig& config, PairState& state,
-                     const std::array<ToolTouch, 2>& tools, const TickCommands& commands) noexcept {
+                     const std::array<ToolTouch, 2>& tools,
+                     std::array<TickFrame, 2>* frames) noexcept {
+  const TickCommands& commands = frames->front().record.commands;
   SqueezeModulation law = config.squeeze;
   law.target.factor *= static_cast<double>(commands.squeeze_stiffness);
   law.weight_factor *= static_cast<double>(commands.squeeze_weight);
@@ -117,6 +142,14 @@ AddedForces squeezed(const PairConfig& config, PairState& state,
   added.f_d = now.f_d;
   added.x = {now.x, now.x};
   added.f_n = {now.F, now.F};
+  for (std::size_t t = 0; t < 2; ++t) {
+    TickForces& forces = (*frames)[t].forces;
+    const Quat q_DP = unpack(config.tools[t].X_DP.q).normalized();
+    const Vec3 weight = (law.weight_factor - 1) * now.f_w[t];
+    forces.weight = q_DP * weight;
+    forces.stiffness = q_DP * Vec3(now.f_d[t] - weight);
+    if (now.contact) forces.normal = q_DP * Vec3(t == 0 ? now.l : Vec3(-now.l));
+  }
   return added;
 }
 
@@ -153,7 +186,8 @@ SensedForce estimatedForce(const PairConfig& config, PairState& state, const Dev
 std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
                                      const std::array<DeviceReading, 2>& readings,
                                      const TickCommands& commands, std::int64_t now_ns,
-                                     const std::array<SensedForce, 2>& sensed) noexcept {
+                                     const std::array<SensedForce, 2>& sensed,
+                                     std::array<TickForces, 2>* forces) noexcept {
   if (commands.trial != state.trial) {
     state.trial = commands.trial;
     state.touch = {};
@@ -173,9 +207,8 @@ std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
     if (frames[t].felt) tools[t] = touchIn(config.tools[t], felt);
     tools[t].friction = static_cast<double>(commands.friction);
   }
-  const AddedForces added = config.squeezing
-                                ? squeezed(config, state, tools, commands)
-                                : pressed(config, state, tools, commands.lumps, frames[0].input.dt);
+  const AddedForces added = config.squeezing ? squeezed(config, state, tools, &frames)
+                                             : pressed(config, state, tools, &frames);
   std::array<FlightRecord, 2> records;
   for (std::size_t t = 0; t < 2; ++t) {
     frames[t].f_source_D += unpack(config.tools[t].X_DP.q).normalized() * added.f_source[t];
@@ -183,6 +216,7 @@ std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
         finishTick(config.tools[t], state.tools[t],
                    addedIn(config.tools[t], added.f_d[t], added.x[t], added.f_n[t]), frames[t]);
   }
+  if (forces) *forces = {frames[0].forces, frames[1].forces};
   records[1].tool = 1;
   return records;
 }

@@ -4,6 +4,7 @@
 
 #include "haptics/flight_record.h"
 #include "haptics/loop/tick_config.h"
+#include "haptics/loop/tick_forces.h"
 #include "haptics/loop/tick_state.h"
 
 namespace palpa::haptics {
@@ -24,9 +25,11 @@ PackedPose toolPose(const TickConfig& config, const TickState& state,
 /// wanted one; an artery in the commands pulses under one tool (feelPulse), not under two. Zero
 /// force in the same tick for readings that cannot be, jumps, a clock that stood still or went
 /// back, and after a pause of the loop (watchdog). A device that is not homed touches nothing.
+/// `forces`, where it is asked for: what the force is made of.
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
-                  const SensedForce& sensed = {}, const Floor* floor = nullptr) noexcept;
+                  const SensedForce& sensed = {}, const Floor* floor = nullptr,
+                  TickForces* forces = nullptr) noexcept;
 
 /// One tick of both: readings -> what each sensor felt -> augmentTouch, or modulateSqueeze -> each
 /// device's passivity and safety. Each device keeps its own limits and is judged by its own
@@ -38,6 +41,7 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
 std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
                                      const std::array<DeviceReading, 2>& readings,
                                      const TickCommands& commands, std::int64_t now_ns,
-                                     const std::array<SensedForce, 2>& sensed) noexcept;
+                                     const std::array<SensedForce, 2>& sensed,
+                                     std::array<TickForces, 2>* forces = nullptr) noexcept;
 
 }  // namespace palpa::haptics

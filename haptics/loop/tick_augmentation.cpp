@@ -141,6 +141,18 @@ Vec3 outOf(const TickCommands& commands, const Vec3& p_D) noexcept {
   return out;
 }
 
+/// What the cues were computed from, and what they gave.
+void describeCues(const AugmentationInput& in, const Augmented& added,
+                  TickForces* forces) noexcept {
+  forces->cues = added.each;
+  forces->up = in.up;
+  forces->footprint = in.footprint;
+  forces->to_valley = in.to_valley;
+  forces->valley_radius_U = in.valley_radius;
+  forces->to_line = in.to_line;
+  forces->out_of = in.out_of;
+}
+
 }  // namespace
 
 NeedleContact floorContact(const TickConfig& config, TickState& state, const Floor* floor,
@@ -163,6 +175,8 @@ NeedleContact floorContact(const TickConfig& config, TickState& state, const Flo
   }
   if (commands.force_feedback) frame->f_hold_D = f.toD(hold_F);
   state.floor.touching = touch->touching;
+  frame->forces.on_floor_U = p_F / config.floor.unit;
+  frame->forces.held = frame->f_hold_D;
   frame->record.place = placeBits(*touch);
   return contact;
 }
@@ -171,6 +185,7 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
                       const Floor* floor, const FloorTouch* touch, TickFrame* frame) noexcept {
   const AugmentationPlan& plan = config.augmentations;
   frame->f_source_D += frame->f_pulse_D;
+  frame->forces.pulse = frame->f_pulse_D;
   frame->record.f_augmentation_D = pack(frame->f_pulse_D);
   if (plan.subtasks.count == 0 && plan.count == 0) return;
   const Vec3 p_D = frame->pose.p_DT;
@@ -199,6 +214,7 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   record.augmenting = static_cast<std::uint8_t>(added.active);
   record.began = static_cast<std::uint8_t>(added.began);
   frame->f_source_D += added.f_source;
+  describeCues(in, added, &frame->forces);
 }
 
 }  // namespace palpa::haptics

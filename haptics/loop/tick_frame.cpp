@@ -144,7 +144,7 @@ Vec3 objectForce(const TickConfig& config, const SensedForce& sensed) {
 }
 
 /// The force that is asked of the limiter. Where nothing will be rendered the observer starts anew.
-Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& frame,
+Vec3 passiveForce(const TickConfig& config, TickState& state, TickFrame& frame,
                   const Vec3& f_felt_D) {
   const TickCommands& commands = frame.record.commands;
   const SafetyInput& in = frame.input;
@@ -152,6 +152,7 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& f
   const Vec3 f_D = fresh * f_felt_D;
   if (!commands.force_feedback || !commands.armed || fresh == 0) {
     state.passivity = PassivityState{};
+    frame.forces.rendered = commands.force_feedback ? fresh : 0;
     return commands.force_feedback ? f_D : Vec3::Zero();
   }
   PassivityInput port;
@@ -163,6 +164,8 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& f
   port.dt = in.dt;
   Vec3 f_passive_D = keepPassive(config.passivity, state.passivity, port);
   state.passivity.sequence = in.sequence;
+  frame.forces.rendered = fresh;
+  frame.forces.damping = f_passive_D - f_D;
   return f_passive_D;
 }
 

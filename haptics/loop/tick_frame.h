@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/loop/tick.h"
+#include "haptics/loop/tick_forces.h"
 
 /// What every tick has before and after its contact, whoever computes that: for this folder only.
 namespace palpa::haptics {
@@ -18,6 +19,7 @@ struct TickFrame {
   Vec3 f_hold_D = Vec3::Zero();  ///< N: what holds the handle up or in its place; no contact
   Vec3 f_pulse_D = Vec3::Zero();   ///< N, of an artery under the tool
   Vec3 f_source_D = Vec3::Zero();  ///< N, of pulse, texture and cues that heed no motion
+  TickForces forces;               ///< of what the force is made
 };
 
 /// From one time to another, ns. In floating point: a clock that leaps must not overflow.

@@ -84,7 +84,8 @@ Modulated modulateFriction(const FrictionModulation& law, const Vec3& f_r, const
     return now;
   }
   const Vec3 f_real = f_r - f_r.dot(now.u_n) * now.u_n;
-  now.f_d -= dragOf(law.wanted, now.slid, now.u_n, now.f_n, dt, &state->wanted) + f_real;
+  now.f_rub = -(dragOf(law.wanted, now.slid, now.u_n, now.f_n, dt, &state->wanted) + f_real);
+  now.f_d += now.f_rub;
   return now;
 }
 

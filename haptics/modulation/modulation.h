@@ -38,11 +38,12 @@ static_assert(std::is_trivially_copyable_v<StiffnessModulation> &&
 /// One tick's answer. All in the frame of the arguments.
 struct Modulated {
   bool contact = false;
-  Vec3 f_d = Vec3::Zero();   ///< N, of the device on the tool
-  Vec3 u_n = Vec3::UnitZ();  ///< estimated outward normal
-  double x = 0;              ///< m, estimated depth
-  double f_n = 0;            ///< N, of the real object along u_n
-  Vec3 slid = Vec3::Zero();  ///< m, how far the tip slid over the surface in this tick
+  Vec3 f_d = Vec3::Zero();    ///< N, of the device on the tool
+  Vec3 u_n = Vec3::UnitZ();   ///< estimated outward normal
+  double x = 0;               ///< m, estimated depth
+  double f_n = 0;             ///< N, of the real object along u_n
+  Vec3 slid = Vec3::Zero();   ///< m, how far the tip slid over the surface in this tick
+  Vec3 f_rub = Vec3::Zero();  ///< N, the part of f_d that changes the friction
 };
 
 /// The part of a tip's motion dp, m, that slides over a surface of unit normal u, where it presses

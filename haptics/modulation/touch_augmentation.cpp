@@ -35,7 +35,8 @@ void takeAway(const TouchAugmentation& law, const PlacedLumps& lumps,
       takeLumps(law.surface.contact, law.kinds, lumps, law.tip_radius, tools, dt, state);
   now->d = taken.d;
   now->iterations += taken.iterations;
-  now->f_d = taken.f_d;
+  now->f_d = now->f_taken = taken.f_d;
+  now->taking = 1;
   for (std::size_t t = 0; t < 2; ++t) {
     if (!taken.contacts[t].touching) continue;
     (*contacts)[t] = taken.contacts[t];
@@ -79,9 +80,11 @@ AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lum
     now.iterations += lump.iterations;
     for (std::size_t t = 0; t < 2; ++t) {
       const Modulated& felt = now.touch[t];
-      if (felt.contact)
-        now.f_d[t] += lump.f_T[t] + rubbedByLump(lump.f_T[t], tools[t].f_r - felt.f_n * felt.u_n,
-                                                 felt.f_n, felt.u_n);
+      if (!felt.contact) continue;
+      const Vec3 f = lump.f_T[t] + rubbedByLump(lump.f_T[t], tools[t].f_r - felt.f_n * felt.u_n,
+                                                felt.f_n, felt.u_n);
+      now.f_d[t] += f;
+      now.f_lumps[t] += f;
     }
   }
   return now;

@@ -49,6 +49,10 @@ struct AugmentedTouch {
                           Vec3::Zero()};  ///< N, of the devices on the tools, all together
   /// N, the part of f_d that asks for no motion: a source, left out of the passivity's account
   std::array<Vec3, 2> f_source{Vec3::Zero(), Vec3::Zero()};
+  /// N, parts of f_d: of the virtual lumps, and what takes real ones away
+  std::array<Vec3, 2> f_lumps{Vec3::Zero(), Vec3::Zero()};
+  std::array<Vec3, 2> f_taken{Vec3::Zero(), Vec3::Zero()};
+  std::uint8_t taking = 0;              ///< 1: f_taken has the place of what changes the surface
   std::array<Packed3, kMostLumps> d{};  ///< m, how far the lumps are pushed
   int iterations = 0;  ///< of all lumps' solvers; at most kMostLumps kMostInclusionIterations
 };

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "csv_rows.h"
+#include "guide_script.h"
 #include "program.h"
 #include "tests/support/counts.h"
 
@@ -101,12 +103,30 @@ TEST(Friction, ReplayJudgesItAgainAndForcesAddUp) {
   }
 }
 
+/// A task of surfaces that shake the tool as well: friction.json on a lumps' file that names a
+/// texture.
+std::string withTexture(const Folder& here) {
+  const std::filesystem::path assets = std::filesystem::path(PALPA_SOURCE_DIR) / "assets";
+  nlohmann::json lumps = nlohmann::json::parse(contentOf(assets / "materials/lumps.json"));
+  const auto whole = [&](nlohmann::json& path) {
+    path = (assets / "materials" / path.get<std::string>()).string();
+  };
+  whole(lumps["surface"]);
+  whole(lumps["friction"]);
+  for (nlohmann::json& kind : lumps["kinds"]) whole(kind["identified"]);
+  lumps["texture"] = (assets / "materials/textures/wood.json").string();
+  nlohmann::json task = nlohmann::json::parse(contentOf(assets / "tasks/friction.json"));
+  task["lumps"] = here.file("rough-lumps.json", lumps.dump());
+  return here.file("rough.json", task.dump());
+}
+
 /// What the hand felt of each surface, from the export alone: as much friction as was asked for.
 TEST(Friction, TheExportHoldsTheFrictionThatWasAskedForAndFelt) {
   const Folder here;
-  ASSERT_EQ(
-      friction({"--sort", "--operator", "expert", "--trials", "1", "--out", "A"}, here).exit_code,
-      0);
+  const Outcome session = friction({"--task", withTexture(here), "--sort", "--operator", "expert",
+                                    "--trials", "1", "--out", "A"},
+                                   here);
+  ASSERT_EQ(session.exit_code, 0) << session.err;
   ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
   std::map<double, std::pair<double, double>> rubbed;  // by factor: tangential, normal, N
   for (const Row& row : rowsOf(contentOf(here / "ticks.csv"))) {
@@ -124,6 +144,12 @@ TEST(Friction, TheExportHoldsTheFrictionThatWasAskedForAndFelt) {
   EXPECT_GT(once, 0.1);
   for (const auto& [factor, sums] : rubbed)
     EXPECT_NEAR(sums.first / sums.second, factor * once, 0.2 * factor * once) << factor;
+  if (!pythonIsThere()) GTEST_SKIP() << "no Python (Debian: python3)";
+  const ScriptVerdict laws = checkedBy("check_touch.py", here, 12000);
+  EXPECT_GT(laws.ticks, 5000);
+  EXPECT_LT(laws.worst_mN, 1);
+  for (const char* what : {"stiffness", "friction", "texture"})
+    EXPECT_TRUE(says(laws.said, what)) << laws.said;
 }
 
 TEST(Friction, ATaskFileIsTheSameSession) {

@@ -114,6 +114,8 @@ TEST(ReplayView, WrongWishesAreNamed) {
   complains({"--video", "c.avi", "--speed", "0"}, "speed");
   complains({"--video", "c.avi", "--from", "nan"}, "--from needs a number of 0 s or more");
   complains({"--video", "c.avi", "--view"}, "do not go together");
+  complains({"--video", "c.avi", "--figures", "f"}, "do not go together");
+  complains({"--figures", "f"}, "is no search");
   complains({"--from", "1"}, "Add --view");
   EXPECT_FALSE(std::filesystem::exists(recordedNeedle() / "c.avi"));
 }

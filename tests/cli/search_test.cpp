@@ -6,6 +6,7 @@
 #include "apps/assess/search/search_trial.h"
 #include "apps/training/trial_words.h"
 #include "csv_rows.h"
+#include "guide_script.h"
 #include "program.h"
 #include "tests/support/counts.h"
 
@@ -106,6 +107,40 @@ TEST(Search, ModesDifferInTheFloorsStiffnessAndInCuesOnlyAndAreReplayed) {
   const Outcome outcome = palpa({"replay", "A/session.palpa"}, here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "The replay equals the record")) << outcome.out;
+}
+
+/// A short episode on a floor whose rises are soon told.
+std::string shortTask(const Folder& here) {
+  nlohmann::json task =
+      nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json"));
+  task["rises"]["map_px"]["value"] = 256;
+  task["end"]["time_limit_s"]["value"] = 5;
+  return here.file("short.json", task.dump());
+}
+
+/// From the export alone every force adds up, and cues and limiter come out again; and the floor is
+/// drawn, on the page and by a command.
+TEST(Search, TheExportAddsUpAndTheFloorIsDrawn) {
+  const Folder here;
+  const Outcome session = palpa(search({"--task", shortTask(here), "--operator", "expert", "--mode",
+                                        "augmented", "--seed", "20001", "--out", "A"}),
+                                here.path());
+  ASSERT_EQ(session.exit_code, 0) << session.err;
+  const Outcome drawn = palpa({"replay", "A/session.palpa", "--figures", "figures"}, here.path());
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  for (const char* file :
+       {"stimulus", "texture-target", "texture-distractor", "floor", "filter", "response", "way"}) {
+    const std::string svg = contentOf(here / ("figures/" + std::string(file) + ".svg"));
+    EXPECT_TRUE(says(svg, "x, U") && says(svg, "data:image/png;base64,")) << file;
+  }
+  EXPECT_TRUE(says(contentOf(here / "figures/way.svg"), "cue: valley"));
+  EXPECT_TRUE(says(contentOf(here / "A/report.html"), "stimulus, texture and response"));
+  ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
+  EXPECT_TRUE(says(contentOf(here / "ticks.columns.txt"), "f_cue_2_D_x_N: added: the cue valley"));
+  if (!pythonIsThere()) GTEST_SKIP() << "no Python (Debian: python3)";
+  const ScriptVerdict verdict = checkedBy("check_ticks.py", here, 7000);
+  EXPECT_GT(verdict.ticks, 4000);
+  EXPECT_LT(verdict.worst_mN, 1) << verdict.said;
 }
 
 TEST(Search, TheSameSeedGivesTheSameNumbersAndViewsChangeNone) {

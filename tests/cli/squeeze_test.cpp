@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include "csv_rows.h"
+#include "guide_script.h"
 #include "program.h"
 #include "tests/support/counts.h"
 
@@ -78,21 +77,13 @@ TEST(Squeeze, ReplayJudgesItAgainAndForcesAddUp) {
 
 /// Whoever has the export can compute what was added.
 TEST(Squeeze, TheGuidesScriptComputesEveryAddedForceAgain) {
-  if (std::system("python3 --version > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "no Python (Debian: python3)";
+  if (!pythonIsThere()) GTEST_SKIP() << "no Python (Debian: python3)";
   const Folder here;
   ASSERT_EQ(squeeze({"--operator", "expert", "--trials", "2", "--out", "A"}, here).exit_code, 0);
   ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
-  const std::string run = "cd '" + here.path().string() + "' && python3 '" + PALPA_SOURCE_DIR +
-                          "/docs/check_ticks.py' ticks.csv > said.txt 2>&1";
-  ASSERT_EQ(std::system(run.c_str()), 0) << contentOf(here / "said.txt");
-  int ticks = 0;
-  double worst_mN = 1e9;
-  ASSERT_EQ(std::sscanf(contentOf(here / "said.txt").c_str(), "%d ticks, at most %lf mN", &ticks,
-                        &worst_mN),
-            2);
-  EXPECT_GT(ticks, 5000);
-  EXPECT_LT(worst_mN, 1);
+  const ScriptVerdict verdict = checkedBy("check_touch.py", here, 1000000);
+  EXPECT_GT(verdict.ticks, 5000);
+  EXPECT_LT(verdict.worst_mN, 1);
 }
 
 TEST(Squeeze, ViewsChangeNothingAndTheReportSaysWhatItIs) {

@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "csv_rows.h"
+#include "guide_script.h"
 #include "program.h"
 #include "tests/support/counts.h"
 
@@ -331,8 +332,7 @@ TEST(TwoFingers, ATrackedFingersForceIsEstimatedAndCalledSo) {
     EXPECT_GT(found.most_N, 0.1) << "the lump presses on both";
     EXPECT_LT(found.worst_N, 1e-3);
   }
-  if (std::system("python3 --version > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "no Python (Debian: python3)";
+  if (!pythonIsThere()) GTEST_SKIP() << "no Python (Debian: python3)";
   const std::string run = "cd '" + here.path().string() + "' && python3 '" + PALPA_SOURCE_DIR +
                           "/docs/check_estimate.py' ticks.csv > said.txt 2>&1";
   ASSERT_EQ(std::system(run.c_str()), 0) << contentOf(here / "said.txt");
@@ -345,6 +345,9 @@ TEST(TwoFingers, ATrackedFingersForceIsEstimatedAndCalledSo) {
   EXPECT_GT(ticks, 50'000);
   EXPECT_GT(most_N, 0.3);
   EXPECT_LT(worst_mN, 1);
+  const ScriptVerdict sums = checkedBy("check_ticks.py", here, 10'000);
+  EXPECT_EQ(sums.ticks, 10'000);
+  EXPECT_LT(sums.worst_mN, 1) << sums.said;
 }
 
 TEST(TwoFingers, ABareFingerIsASecondOne) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "adds_up.h"
 #include "haptics/loop/tick.h"
 #include "tests/support/allocation_count.h"
 #include "tests/surface/surface_bench.h"
@@ -50,7 +51,11 @@ struct FloorLoop {
     reading.homed = 1;
     reading.p_DE = pack(Vec3(unpack(config.X_DF) * (unit() * p_U)));
     const Floor floor{&surface, rises, valleys};
-    return tick(config, state, reading, nullptr, commands, now, {}, there ? &floor : nullptr);
+    TickForces forces;
+    const FlightRecord record =
+        tick(config, state, reading, nullptr, commands, now, {}, there ? &floor : nullptr, &forces);
+    expectAddsUp(record, forces);
+    return record;
   }
   /// There until it is at rest: the velocity's time constant is 1 ms.
   FlightRecord rest(const Vec3& p_U) {

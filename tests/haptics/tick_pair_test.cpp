@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "adds_up.h"
 #include "tests/support/allocation_count.h"
 
 /// Two devices on one real thing in one tick.
@@ -56,7 +57,11 @@ struct PairLoop {
       sensed[t] = {
           pack(Vec3(X_DP[t].linear() * f_P[t])), pack(Vec3(X_DP[t] * p_P[t])), sensors[t], {}};
     }
-    return tickPair(config, state, readings, commands, now, sensed);
+    std::array<TickForces, 2> forces;
+    const std::array<FlightRecord, 2> records =
+        tickPair(config, state, readings, commands, now, sensed, &forces);
+    for (std::size_t t = 0; t < 2; ++t) expectAddsUp(records[t], forces[t]);
+    return records;
   }
   /// Both pressed down beside each other as deep as `depth`, slowly.
   std::array<FlightRecord, 2> press(double apart, double depth) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "adds_up.h"
 #include "haptics/loop/tick.h"
 #include "tests/support/allocation_count.h"
 
@@ -50,7 +51,11 @@ struct TouchLoop {
                              pack(Vec3(X_DP * (tip_P + 0.008 * Vec3::UnitZ()))),
                              sensor,
                              {}};
-    return tick(config, state, reading, nullptr, commands, now, sensed);
+    TickForces forces;
+    const FlightRecord record =
+        tick(config, state, reading, nullptr, commands, now, sensed, nullptr, &forces);
+    expectAddsUp(record, forces);
+    return record;
   }
   /// Pressed straight down at `x` to `depth`, at 2 cm/s, and held there.
   FlightRecord press(double x, double depth) {

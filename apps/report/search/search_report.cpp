@@ -55,6 +55,7 @@ void writeSearchMain(Html& html, const SearchReport& report) {
   writeSearchTimes(html, report.trials);
   writeDoses(html, report);
   writeEpisodes(html, report);
+  if (report.figures) writeSearchFigures(html, *report.figures);
   if (!report.pictures.empty()) {
     const auto section = html.in("section", {{"class", "card"}});
     writePictures(html, report.pictures);
@@ -68,8 +69,9 @@ void writeSearchPage(Html& html, const SearchReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, report.title, report.trainee,
-                     std::string(kSearchStyle) + std::string(subtaskTableStyle()));
+    writeHeadElement(
+        html, report.title, report.trainee,
+        std::string(kSearchStyle) + std::string(subtaskTableStyle()) + searchFiguresStyle());
     const auto body = html.in("body");
     writeSearchHeader(html, report);
     writeSearchMain(html, report);

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/assess/search/search_trial.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/subtask_table.h"
+#include "apps/report/search/search_figures.h"
 
 namespace palpa::report {
 
@@ -17,6 +19,7 @@ struct SearchReport {
   std::vector<assess::SearchTrial> trials;
   SubtaskMeanings subtasks;  ///< names as in the trials' doses, and what they mean
   std::vector<Picture> pictures;
+  std::optional<SearchFigures> figures = {};  ///< of one episode
   std::vector<Fact> taxonomy, station, notes;
   std::string unit_note;  ///< how large the floor is: "1 U = 0.06 mm in the hand"
 };
