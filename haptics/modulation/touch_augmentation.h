@@ -49,7 +49,7 @@ struct AugmentedTouch {
                           Vec3::Zero()};  ///< N, of the devices on the tools, all together
   /// N, the part of f_d that asks for no motion: a source, left out of the passivity's account
   std::array<Vec3, 2> f_source{Vec3::Zero(), Vec3::Zero()};
-  std::array<Packed3, kMostLumps> d{};  ///< m, how far the lumps are pushed
+  std::array<Packed3, kMostLumps> d{};  ///< m, how far the lumps are pushed, in their own frames
   int iterations = 0;  ///< of all lumps' solvers; at most kMostLumps kMostInclusionIterations
 };
 
@@ -59,7 +59,12 @@ struct AugmentedTouch {
 /// f_targ: of mu and B of the wanted friction, times the tool's factor (0 or more; else 1).
 /// Where lumps are real and taken off, `takeLumps` has the place of the first line: nothing else is
 /// changed of the surface then. Each lump feels both tools, and no other lump. Where there is no
-/// contact there is no force. No allocation, no exception.
+/// contact there is no force. Below a curved surface a lump's bed lies across the normal over it:
+/// what is felt of the lump is computed in the frame in which that is z. No allocation, no
+/// exception.
+/// Unit; z where it says none that is upward.
+Vec3 outwardOver(const PlacedLump& lump) noexcept;
+
 AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,
                             const std::array<ToolTouch, 2>& tools, double dt,
                             TouchAugmentationState* state) noexcept;
