@@ -9,7 +9,7 @@
 namespace palpa::task_palpation {
 namespace {
 
-constexpr double kSteepest = 1;  // 45 degrees
+constexpr double kSteepest = 1;     // 45 degrees
 constexpr double kNarrowest = 1.2;  // of the tip's radius, that of a hollow
 
 /// `otherwise` where the file says nothing.
@@ -34,8 +34,7 @@ TopMound moundIn(const JsonFile& file) {
 }
 
 Eigen::Vector2d cornerIn(const JsonFile& file, const nlohmann::json& corner) {
-  if (!corner.is_array() || corner.size() != 2 || !corner[0].is_number() ||
-      !corner[1].is_number())
+  if (!corner.is_array() || corner.size() != 2 || !corner[0].is_number() || !corner[1].is_number())
     file.refuse("area/outline_mm",
                 "holds " + corner.dump() + " where a point [across, away] must be");
   return kMm * Eigen::Vector2d(corner[0].get<double>(), corner[1].get<double>());

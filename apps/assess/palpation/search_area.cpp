@@ -41,8 +41,7 @@ bool hasOutline(const SearchArea& area) { return area.outline.size() >= 3; }
 }  // namespace
 
 double insideBy(const SearchArea& area, const Vec3& p_P) {
-  const double in_box =
-      std::min(area.half_x - std::abs(p_P.x()), area.half_y - std::abs(p_P.y()));
+  const double in_box = std::min(area.half_x - std::abs(p_P.x()), area.half_y - std::abs(p_P.y()));
   if (!hasOutline(area)) return in_box;
   const Vector2d p = p_P.head<2>();
   const double far = (nearestOn(area.outline, p) - p).norm();
@@ -70,8 +69,7 @@ Vector2d foreshortening(const SearchArea& area) {
       const Vec3 p(area.half_x * i / kSteps, area.half_y * j / kSteps, 0);
       if (insideBy(area, p) < 0) continue;
       const TopHeight h = heightOf(area.top, p.x(), p.y());
-      longest = longest.cwiseMax(
-          Vector2d(std::sqrt(1 + h.zx * h.zx), std::sqrt(1 + h.zy * h.zy)));
+      longest = longest.cwiseMax(Vector2d(std::sqrt(1 + h.zx * h.zx), std::sqrt(1 + h.zy * h.zy)));
     }
   }
   return longest;
