@@ -202,8 +202,8 @@ TEST(Palpation, ACurvedPhantomIsPalpatedLikeAFlatOne) {
   const Outcome again = palpa({"replay", "A/session.palpa"}, here.path());
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_TRUE(says(again.out, ": 0 differ")) << again.out;
-  ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "E"}, here.path()).exit_code, 0);
-  const nlohmann::json laws = nlohmann::json::parse(contentOf(here / "E/laws.json"));
+  ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
+  const nlohmann::json laws = nlohmann::json::parse(contentOf(here / "ticks.laws.json"));
   const nlohmann::json& normal = laws.at("lumps").at("1").at(0).at("normal");
   EXPECT_GT(normal.at(2).get<double>(), 0.7);
   EXPECT_LT(normal.at(2).get<double>(), 0.9999);

@@ -55,7 +55,7 @@ TEST(TopShape, SlopesAndSecondDerivativesAreThoseOfItsHeight) {
       const Vec3 across = Vec3(2 * e, 0, right.z - left.z).cross(Vec3(0, 2 * e, far.z - near.z));
       EXPECT_LT((normalOf(top, x, y) - across.normalized()).norm(), 1e-6);
     }
-    EXPECT_EQ(heightOf(top, 0, 0).z, 0) << "the origin lies on it";
+    EXPECT_NEAR(heightOf(top, 0, 0).z, 0, 1e-15) << "the origin lies on it";
   }
 }
 
@@ -73,15 +73,15 @@ TEST(TopShape, ThePointNearestIsTheOneThatWasRaised) {
   }
 }
 
-/// Steps of a micrometre move neither foot nor normal by more than curvature allows.
+/// Steps of ten micrometres move neither foot nor normal by more than curvature allows.
 TEST(TopShape, NothingJumpsAsATipGoesOverIt) {
   const TopShape top = everything();
   TopFoot before = nearestOn(top, Vec3(-0.03, -0.01, heightOf(top, -0.03, -0.01).z + 0.006));
-  for (double x = -0.03; x < 0.03; x += 1e-6) {
+  for (double x = -0.03; x < 0.03; x += 1e-5) {
     const TopFoot now = nearestOn(top, Vec3(x, -0.01 + 0.3 * x, 0.004));
     if (x > -0.03) {
-      EXPECT_LT((now.p - before.p).norm(), 4e-6);
-      EXPECT_LT((now.n - before.n).norm(), 4e-4);
+      EXPECT_LT((now.p - before.p).norm(), 4e-5);
+      EXPECT_LT((now.n - before.n).norm(), 4e-3);
     }
     before = now;
   }
@@ -114,10 +114,11 @@ TEST(TopShape, TurnsZToTheNormalTheShortWay) {
 
 TEST(TopShape, TheTickMayAskIt) {
   const TopShape top = everything();
+  const Vec3 p = fromTop(top, Vec3(0.01, 0.02, 0.005));
   const NoAllocation counted;
-  const double over = nearestOn(top, Vec3(0.01, 0.02, 0.005)).over;
+  const double over = nearestOn(top, p).over;
   EXPECT_EQ(counted.allocations(), 0);
-  EXPECT_LT(over, 0.005);
+  EXPECT_NEAR(over, 0.005, 1e-9);
 }
 
 }  // namespace

@@ -12,8 +12,7 @@ namespace {
 constexpr double kTick = 2.5e-4;
 
 PhantomTable plain() {
-  const std::filesystem::path folder =
-      std::filesystem::path(PALPA_SOURCE_DIR) / "assets/phantoms";
+  const std::filesystem::path folder = std::filesystem::path(PALPA_SOURCE_DIR) / "assets/phantoms";
   return readSolved(folder / "mockups.json", folder / "mockups.tables.json").front().table;
 }
 

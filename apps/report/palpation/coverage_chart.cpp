@@ -107,7 +107,7 @@ void drawEdge(Html& svg, const MapFrame& at, const assess::SearchArea& area) {
   svgPath(svg, "edge", path + 'z');
 }
 
-constexpr double kContour = 4e-3;  // m, from one line of equal height to the next
+constexpr double kContour = 2e-3;  // m, from one line of equal height to the next
 
 /// Where one side of a cell crosses a height; two of them make a piece of its line.
 std::string contourIn(const MapFrame& at, const std::array<Vec3, 3>& corners, double height) {
@@ -269,6 +269,9 @@ void writeCoverageChart(Html& html, const PalpationPage& page) {
   const auto figure = html.in("figure");
   drawMap(html, page, map, kWide);
   drawMap(html, page, map, kNarrow);
+  if (!page.rules.area.top.flat())
+    html.element("figcaption", "Thin lines join places of equal height, " +
+                                   fixed(1e3 * kContour, 0) + " mm from line to line.");
   if (page.samples.empty()) html.element("figcaption", "No motion was recorded in this trial.");
 }
 
