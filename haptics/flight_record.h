@@ -20,6 +20,8 @@ struct PlacedLump {
   /// 0: it is not there, and is felt. Above, to 1: it lies in the real object, and this share of
   /// what it adds is taken off
   float taken = 0;
+  std::array<float, 3> n{0, 0, 1};  ///< the object's outward normal over it: its bed lies across
+  float reserved = 0;
 };
 using PlacedLumps = std::array<PlacedLump, kMostLumps>;
 static_assert(std::is_trivially_copyable_v<PlacedLumps>);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
+#include "anatomy/geometry/top_shape.h"
 #include "anatomy/patient.h"
 #include "anatomy/query/skin_dimple.h"
 
@@ -58,14 +59,18 @@ struct GuideLine {
   Vec3 from_A = Vec3::Zero(), to_A = Vec3::Zero();
 };
 
-/// What of an area has been felt, and how firmly: a grid in the plane z = 0 of G, centred on G's
-/// origin, columns along x, rows along y.
+/// What of an area has been felt, and how firmly: a grid on a top in G, as seen along z, centred on
+/// G's origin, columns along x, rows along y.
 struct CoverageGrid {
+  static constexpr std::uint8_t kNotAsked = 255;  ///< level of a cell outside of the area
   Pose X_AG = Pose::Identity();
   double cell_x = 0.004, cell_y = 0.004;  ///< metres
   int columns = 0, rows = 0;
   /// row by row from the lowest y; 0: not felt, 1 light, 2 medium, 3 deep
-  std::vector<std::uint8_t> levels;
+  std::vector<std::uint8_t> levels = {};
+  TopShape top = {};  ///< flat: the plane z = 0
+  /// M, corner after corner, once around what is drawn about; none: the whole grid
+  std::vector<Eigen::Vector2d> outline = {};
 };
 
 /// Something that lies inside, seen through the surface.

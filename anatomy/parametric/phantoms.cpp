@@ -89,9 +89,29 @@ class BlockSurface {
   std::map<Lattice, std::uint32_t> index_;
 };
 
-TriangleMesh blockMesh(const Vec3& size) {
+constexpr double kLeastHeight = 0.005;  // m, of a block with a curved top
+
+/// z' = z + share h(x, y), share: of the height over the base. Normals by the inverse transpose of
+/// that map's derivative, I + z w'.
+void drawTop(const TopShape& top, double high, TriangleMesh* mesh) {
+  for (std::size_t i = 0; i < mesh->points.size(); ++i) {
+    Vec3 &p = mesh->points[i], &n = mesh->normals[i];
+    const TopHeight h = heightOf(top, p.x(), p.y());
+    if (!(high + h.z >= kLeastHeight))
+      throw Error("its top comes within 5 mm of its base", "phantom/shape",
+                  "Make the phantom higher or its top flatter");
+    const double share = 1 + p.z() / high;
+    const Vec3 w(share * h.zx, share * h.zy, h.z / high);
+    n = (n - n.z() / (1 + w.z()) * w).normalized();
+    p.z() += share * h.z;
+  }
+}
+
+TriangleMesh blockMesh(const Vec3& size, const TopShape& top) {
   TriangleMesh mesh = BlockSurface(size).mesh;
-  for (Vec3& p : mesh.points) p = X_AP() * (p - Vec3(0, 0, size.z() / 2));
+  for (Vec3& p : mesh.points) p -= Vec3(0, 0, size.z() / 2);
+  if (!top.flat()) drawTop(top, size.z(), &mesh);
+  for (Vec3& p : mesh.points) p = X_AP() * p;
   for (Vec3& n : mesh.normals) n = X_AP().linear() * n;
   return mesh;
 }
@@ -106,7 +126,7 @@ Pose X_AP() {
   return makePose(R, Vec3::Zero());
 }
 
-Patient phantomBlock(const Vec3& size, const std::string& name) {
+Patient phantomBlock(const Vec3& size, const std::string& name, const TopShape& top) {
   if (!(size.minCoeff() >= kShortestSide && size.maxCoeff() <= kLongestSide) || !size.allFinite())
     throw Error("no block is " + std::to_string(1e3 * size.x()) + " x " +
                     std::to_string(1e3 * size.y()) + " x " + std::to_string(1e3 * size.z()) + " mm",
@@ -114,9 +134,10 @@ Patient phantomBlock(const Vec3& size, const std::string& name) {
   Patient patient;
   patient.name = name;
   patient.layers = {0.002, 0, 0};
-  patient.organs.push_back({"skin", Organ::skin, blockMesh(size), kBlockColour});
+  patient.organs.push_back({"skin", Organ::skin, blockMesh(size, top), kBlockColour});
   patient.landmarks[landmark::kEntry] = X_AP() * Vec3::Zero();
-  patient.landmarks[landmark::kNearEdge] = X_AP() * Vec3(0, -size.y() / 2, -kBlockEdge);
+  patient.landmarks[landmark::kNearEdge] =
+      X_AP() * Vec3(0, -size.y() / 2, heightOf(top, 0, -size.y() / 2).z - kBlockEdge);
   return patient;
 }
 

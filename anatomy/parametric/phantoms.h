@@ -3,9 +3,11 @@
 #include <optional>
 #include <string>
 
+#include "anatomy/geometry/top_shape.h"
 #include "anatomy/patient.h"
 
-/// A block of silicone on a table, to be palpated from above, as a patient who lies on the back:
+/// A block of silicone on a table, flat on top or shaped as a part of a body is, to be palpated
+/// from above, as a patient who lies on the back:
 /// its top faces -y of A. Frame P of the block: the origin in the middle of its top, x to the right
 /// and y away from who palpates, z up. x_A = x_P, y_A = -z_P, z_A = y_P. Metres.
 namespace palpa::anatomy {
@@ -19,9 +21,11 @@ inline constexpr double kBlockEdge = 0.004;  ///< m, radius of the edges
 
 Pose X_AP();
 
-/// `size`: along x, y, z of P. One closed skin and landmarks; for no needle. Throws Error for what
-/// is no block: a side shorter than 10 mm or longer than 2 m.
-Patient phantomBlock(const Vec3& size, const std::string& name);
+/// `size`: along x, y, z of P; its height below the origin. One closed skin and landmarks; for no
+/// needle. Its top is that of `top`, drawn down or up with all below it in proportion, to the flat
+/// base. Throws Error for what is no block: a side shorter than 10 mm or longer than 2 m, a top
+/// that comes within 5 mm of the base.
+Patient phantomBlock(const Vec3& size, const std::string& name, const TopShape& top = {});
 
 }  // namespace palpa::anatomy
 

@@ -53,6 +53,8 @@ constexpr const char* kPalpationExamples = R"(Examples:
       the liver's edge is felt in every case, and is not a lump
   palpa palpation --preset prostate --operator novice --trials 8 --fast
       a smaller phantom, eight cases: the fewest on which a trainee passes or fails
+  palpa palpation --preset neck --operator expert --trials 2 --fast
+      a thyroid beside its windpipe, curved as a neck is; so are breast_curved, abdomen_curved, prostate_curved and forearm
   palpa palpation --preset taken --operator expert --trials 8 --fast
       a lump that really lies in the silicone: felt in half of the cases, taken away in the others; what of that is passive is printed first
   palpa palpation --tools 2 --operator expert --fast
@@ -66,10 +68,16 @@ constexpr const char* kPalpationExamples = R"(Examples:
 Button 1 of the device: here is a lump. With a mouse: move it over the phantom, hold the left button to press, M: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
 25 mm. Keys: Enter start or continue, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
 
-const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_abdomen.json"},
-                                                  {"breast", "tasks/palpation_breast.json"},
-                                                  {"prostate", "tasks/palpation_prostate.json"},
-                                                  {"taken", "tasks/palpation_taken.json"}};
+const std::map<std::string, std::string> kPresets{
+    {"abdomen", "tasks/palpation_abdomen.json"},
+    {"abdomen_curved", "tasks/palpation_abdomen_curved.json"},
+    {"breast", "tasks/palpation_breast.json"},
+    {"breast_curved", "tasks/palpation_breast_curved.json"},
+    {"forearm", "tasks/palpation_forearm.json"},
+    {"neck", "tasks/palpation_neck.json"},
+    {"prostate", "tasks/palpation_prostate.json"},
+    {"prostate_curved", "tasks/palpation_prostate_curved.json"},
+    {"taken", "tasks/palpation_taken.json"}};
 
 }  // namespace
 
@@ -83,10 +91,11 @@ void addPalpation(CLI::App& program) {
   command
       ->add_option(
           "--preset", *preset,
-          "Phantom and cases: breast (default), abdomen, prostate, or taken: a real lump that is "
-          "felt or taken away")
+          "Phantom and cases: breast (default), abdomen, prostate, with flat tops; breast_curved, "
+          "abdomen_curved, prostate_curved, neck, forearm: shaped as they are; taken: a real lump "
+          "that is felt or taken away")
       ->check(oneOf(keysOf(kPresets)))
-      ->type_name("abdomen|breast|prostate|taken");
+      ->type_name("NAME");
   command->add_option("--task", options->task, "Task file, in place of a preset")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));

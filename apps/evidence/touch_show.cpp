@@ -8,6 +8,7 @@
 #include "anatomy/parametric/phantoms.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/replay/touch_replay.h"
+#include "apps/task_palpation/palpation_place.h"
 
 namespace palpa::evidence {
 
@@ -118,10 +119,7 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
     trial_.X_AD = anatomy::X_AP() * unpack(config().X_DP).inverse();
     trial_.rules = task_palpation::scoringOf(json).rules;
     trial_.tip_radius = config().touch.tip_radius;
-    shown_ = anatomy::phantomBlock(1e-3 * Vec3(json.number("phantom/across_mm", 10, 500),
-                                               json.number("phantom/away_mm", 10, 500),
-                                               json.number("phantom/high_mm", 5, 300)),
-                                   "phantom");
+    shown_ = anatomy::phantomBlock(task_palpation::sizeOf(json), "phantom", config().top);
     const std::optional<haptics::PairConfig>& pair = reader_.info().pair_config;
     if (pair) trial_.X_AD2 = anatomy::X_AP() * unpack(pair->tools[1].X_DP).inverse();
     trial_.estimated = pair && pair->estimated;
@@ -144,7 +142,7 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
           task_palpation::caseOf(eventText(EventKind::trial_case));
       for (std::size_t i = 0; i < lumps.size(); ++i)
         trial_.lumps.push_back(
-            {lumps[i].p_P, lumps[i].diameter / 2,
+            {fromTop(config().top, lumps[i].p_P), lumps[i].diameter / 2,
              i < one.assessment.score.lumps.size() && one.assessment.score.lumps[i].mark >= 0,
              false});
     }

@@ -117,6 +117,7 @@ json lumpsOf(const SessionReader& reader) {
     for (const haptics::PlacedLump& lump : lumps) {
       if (lump.kind == 0) continue;
       placed.push_back({{"kind", lump.kind}, {"p_P_m", lump.p_T0}});
+      if (lump.n != haptics::PlacedLump{}.n) placed.back()["normal"] = lump.n;
       if (lump.taken > 0) placed.back()["taken"] = lump.taken;  // a real one, taken off
     }
     if (trial > 0) all[std::to_string(trial)] = placed;

@@ -163,10 +163,25 @@ constexpr double kMarkFor_s = 0.2;
 constexpr std::int64_t kRepeats =
     800 * runtime::kMillisecond;  // a key that is held comes again sooner
 
-/// The place of the plane z = 0 of P that is seen at the mouse; none outside the view, or where the
-/// plane is seen from the side or from below.
+/// Where a ray from the eye first goes into a curved top, at most half a metre on from where it
+/// meets the plane z = 0.
+std::optional<Vec3> meets(const TopShape& top, const Vec3& eye_P, const Vec3& ray_P) {
+  constexpr double kStep = 1e-3, kBeyond = 0.5;  // m
+  const Vec3 way = ray_P.normalized();
+  const auto over = [&](double far) {
+    const Vec3 p = eye_P + far * way;
+    return p.z() - heightOf(top, p.x(), p.y()).z;
+  };
+  const double last = -eye_P.z() / way.z() + kBeyond;
+  for (double far = std::max(0.0, last - 2 * kBeyond); far < last; far += kStep)
+    if (over(far) <= 0) return Vec3(eye_P + far * way);
+  return std::nullopt;
+}
+
+/// The place of the top in P that is seen at the mouse; none outside the view, or where the plane
+/// z = 0 is seen from the side or from below.
 std::optional<Vec3> pointedAt(const scene::ViewInput& input, const scene::ArGeometry& view,
-                              const Pose& X_AP) {
+                              const Pose& X_AP, const TopShape& top) {
   const double u = input.mouse_x, v = input.mouse_y;
   if (u < view.x || v < view.y || u >= view.x + view.width || v >= view.y + view.height)
     return std::nullopt;
@@ -175,6 +190,7 @@ std::optional<Vec3> pointedAt(const scene::ViewInput& input, const scene::ArGeom
                                           (v - view.camera.cy) / view.camera.fy, 1);
   const Vec3 eye_P = X_PC.translation();
   if (ray_P.z() > -1e-3 * ray_P.norm() || eye_P.z() <= 0) return std::nullopt;
+  if (!top.flat()) return meets(top, eye_P, ray_P);
   return Vec3(eye_P - eye_P.z() / ray_P.z() * ray_P);
 }
 
@@ -187,9 +203,15 @@ PointingHand::PointingHand(const PointingHandSetup& setup) : setup_(setup) {
 void PointingHand::handle(const scene::ViewInput& input, const scene::ArGeometry& view,
                           std::int64_t now_ns) {
   const bool turns_view = input.right_button || input.middle_button;
-  if (const std::optional<Vec3> p_P = pointedAt(input, view, setup_.X_AP); p_P && !turns_view) {
+  if (const std::optional<Vec3> p_P = pointedAt(input, view, setup_.X_AP, setup_.top);
+      p_P && !turns_view) {
     request_.x = std::clamp(p_P->x(), -setup_.half_x, setup_.half_x);
     request_.y = std::clamp(p_P->y(), -setup_.half_y, setup_.half_y);
+    if (setup_.to_area) {
+      const Vec3 there = setup_.to_area(Vec3(request_.x, request_.y, 0));
+      request_.x = there.x();
+      request_.y = there.y();
+    }
   }
   request_.press = input.left_button;
   if (std::any_of(input.keys.begin(), input.keys.end(),
@@ -211,7 +233,8 @@ void PointingHand::move(const PointingRequest& request, double dt) {
 
 twin::Hand::Action PointingHand::act(const Senses& senses, double dt) {
   if (!std::exchange(begun_, true))
-    tip_P_ = setup_.X_DP.inverse() * (senses.X_DE * setup_.X_ET).translation();
+    tip_P_ =
+        alongTop(setup_.top, setup_.X_DP.inverse() * (senses.X_DE * setup_.X_ET).translation());
   if (const PointingRequest* request = requests_.read(senses.now_ns)) {
     move(*request, dt);
     if (request->marks != marked_) mark_left_s_ = kMarkFor_s;
@@ -221,7 +244,9 @@ twin::Hand::Action PointingHand::act(const Senses& senses, double dt) {
   Action action;
   action.buttons = mark_left_s_ > 0 ? 1u : 0u;
   const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
-  action.X_DH = setup_.X_DP * makePose(down, tip_P_) * setup_.X_ET.inverse();
+  const Mat3 turn = turnToNormal(normalOf(setup_.top, tip_P_.x(), tip_P_.y()));
+  action.X_DH =
+      setup_.X_DP * makePose(turn * down, fromTop(setup_.top, tip_P_)) * setup_.X_ET.inverse();
   return action;
 }
 

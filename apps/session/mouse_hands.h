@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "anatomy/geometry/top_shape.h"
 #include "apps/headset/headset_view.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/channels.h"
@@ -78,6 +79,8 @@ struct PointingHandSetup {
   Pose X_AP;
   double half_x = 0, half_y = 0;  ///< m, P: it stays over the area
   twin::HandGrip grip;
+  TopShape top = {};                                  ///< it presses along its normal
+  std::function<Vec3(const Vec3& p_P)> to_area = {};  ///< of an area that is no rectangle
 };
 
 /// A person's finger at the virtual bench, led by the mouse: it hovers over the place of the
@@ -105,7 +108,7 @@ class PointingHand final : public twin::Hand {
   runtime::StateChannel<PointingRequest> requests_{runtime::TimeMode::real};
   PointingRequest request_;  // the scene thread's
   std::int64_t mark_key_ns_ = -1'000'000'000;
-  Vec3 tip_P_ = Vec3::Zero();  // the bench thread's
+  Vec3 tip_P_ = Vec3::Zero();  // the bench thread's; along the top
   bool begun_ = false;
   int marked_ = 0;
   double mark_left_s_ = 0;

@@ -33,8 +33,13 @@ twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
       nearest = std::min(nearest, assess::fromLine(one, p_P));
     return nearest;
   };
-  return {anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y,
-          from_normal};
+  const assess::SearchArea& area = task.scoring.rules.area;
+  twin::VisiblePhantom seen{anatomy::X_AP(), area.half_x, area.half_y, from_normal};
+  seen.top = area.top;
+  seen.longer = assess::foreshortening(area);
+  if (!area.outline.empty())
+    seen.to_area = [area](const Vec3& p_P) { return assess::nearestIn(area, p_P); };
+  return seen;
 }
 
 }  // namespace
@@ -44,7 +49,7 @@ PalpationWorld::PalpationWorld(const SessionOptions& options)
       task(task_palpation::readPalpation(options.task.empty()
                                              ? station::assetFile("tasks/palpation_breast.json")
                                              : std::filesystem::path(options.task))),
-      phantom(anatomy::phantomBlock(task.size, task.title)),
+      phantom(anatomy::phantomBlock(task.size, task.title, task.scoring.rules.area.top)),
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
   task.library = station::onStation(std::move(task.library), station.calibrations);
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
@@ -82,6 +87,9 @@ void PalpationWorld::checkFingers(const SessionOptions& options) const {
   if (station.device.driver != station::DeviceDriver::bench || options.who == OperatorKind::person)
     throw UsageError("can only be simulated so far", "--tools 2",
                      "Leave out --station, take --operator expert or novice");
+  if (!task.scoring.rules.area.top.flat())
+    throw UsageError("is for a flat top so far", "--tools 2",
+                     "Leave it out, or choose breast, abdomen or prostate (--preset)");
   if (options.augment || task.real)
     throw UsageError("changes what one tool feels",
                      options.augment ? "--augment on with --tools 2" : "A real lump, --tools 2",
@@ -90,6 +98,7 @@ void PalpationWorld::checkFingers(const SessionOptions& options) const {
 
 haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) const {
   haptics::TickConfig config = sensedTick(options, station, task.library);
+  config.top = task.scoring.rules.area.top;
   config.augmentations = station::onDevice(task.augmentations, station);
   for (std::size_t i = 0; i < task.library.kinds.size(); ++i)
     config.lump_radius[i] = task.library.kinds[i].diameter / 2;
@@ -119,7 +128,9 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
                                                              .X_AP = anatomy::X_AP(),
                                                              .half_x = seen.half_x,
                                                              .half_y = seen.half_y,
-                                                             .grip = skill.grip})
+                                                             .grip = skill.grip,
+                                                             .top = seen.top,
+                                                             .to_area = seen.to_area})
           : nullptr;
   PointingHand* const pointing = person.get();
   auto fingers = twin::palpatingFingers(skill, seen, station.X_ET, options.tools, options.seed);
@@ -146,7 +157,7 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
   if (onBench()) {
     const auto sample = std::make_shared<twin::SampleTwin>(
         station, task.real ? task.library.kinds[task.real->lump.kind].name : "",
-        options.benchSeed());
+        options.benchSeed(), task.scoring.rules.area.top);
     const bool two = options.tools == 2;
     bench.real_thing = [sample, two](const std::array<Pose, 2>& X_WT_true, double dt) {
       const auto felt = [](const twin::SampleTouch& touch) {

@@ -20,7 +20,10 @@ std::optional<Vec3> nextInStrips(const assess::CoverageMap& map) {
       const int row = strip % 2 == 0 ? i : map.rows() - 1 - i;
       for (int column = strip * kStripCells;
            column < std::min((strip + 1) * kStripCells, map.columns()); ++column)
-        if (map.level(column, row) == 0) return map.middle(middleOf(strip, map.columns()), row);
+        if (map.asked(column, row) && map.level(column, row) == 0) {
+          const int middle = middleOf(strip, map.columns());
+          return map.middle(map.asked(middle, row) ? middle : column, row);
+        }
     }
   }
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include "anatomy/base/file_schema.h"
 #include "anatomy/base/units.h"
 #include "apps/station/task_sections.h"
+#include "apps/task_palpation/palpation_place.h"
 #include "apps/training/engine.h"
 
 namespace palpa::task_palpation {
@@ -62,8 +63,7 @@ std::vector<assess::NormalAnatomy> normalIn(const JsonFile& file) {
 Scoring scoringOf(const JsonFile& file) {
   Scoring scoring;
   assess::PalpationRules& rules = scoring.rules;
-  rules.area = {kMm * file.number("area/half_across_mm", 5, 200),
-                kMm * file.number("area/half_away_mm", 5, 200)};
+  rules.area = areaOf(file);
   rules.levels = {file.number("pressure/light_N", 0.05, 20),
                   file.number("pressure/medium_N", 0.05, 20),
                   file.number("pressure/deep_N", 0.05, 20)};
@@ -154,17 +154,18 @@ void requireFew(const JsonFile& file, const PalpationSettings& settings) {
                                  " lumps, the points of \"anatomy\" among them");
 }
 
-/// Lumps lie wholly inside.
+/// Lumps lie wholly inside; those below a curved top along its normal.
 void requireInside(const JsonFile& file, const PalpationSettings& settings) {
   const assess::SearchArea& area = settings.scoring.rules.area;
   if (2 * area.half_x > settings.size.x() || 2 * area.half_y > settings.size.y())
     file.refuse("area", "is larger than the phantom");
+  const double high = leastHeight(settings.size, area);
   for (const std::size_t k : settings.cases.kinds) {
     const station::LumpKind& kind = settings.library.kinds[k];
     const double beyond = kind.diameter / 2 - settings.cases.margin;
     if (area.half_x + beyond > settings.size.x() / 2 ||
         area.half_y + beyond > settings.size.y() / 2 || kind.depth - kind.diameter / 2 < 0 ||
-        kind.depth + kind.diameter / 2 > settings.size.z())
+        kind.depth + kind.diameter / 2 > high)
       file.refuse("cases/kinds", "holds \"" + kind.name +
                                      "\", which would stick out of the phantom: its middle lies " +
                                      std::to_string(std::lround(1e3 * kind.depth)) +
@@ -195,9 +196,7 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   PalpationSettings settings;
   settings.id = file.text("id");
   settings.title = file.text("title");
-  settings.size =
-      kMm * Vec3(file.number("phantom/across_mm", 10, 500), file.number("phantom/away_mm", 10, 500),
-                 file.number("phantom/high_mm", 5, 300));
+  settings.size = sizeOf(file);
   settings.library = station::readLumps(path.parent_path() / file.text("lumps"));
   settings.scoring = scoringOf(file);
   if (!file.has("cases/lumps") || !file.has("cases/kinds"))
@@ -212,6 +211,9 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   settings.taxonomy = station::taxonomyOf(file);
   settings.augmentations = station::readPlan(file);
   requireFew(file, settings);
+  requireTouchable(file, settings.scoring.rules.area, settings.library.tip_radius);
+  if (settings.real && !settings.scoring.rules.area.top.flat())
+    file.refuse("real_lump", "can only be taken away below a flat top so far");
   requireInside(file, settings);
   RandomStream trial(0, "palpation.rooms");
   placeLumps(settings, settings.cases.lumps.size() - 1,
@@ -223,6 +225,7 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
 namespace {
 
 constexpr int kPlacesTried = 400, kBegunAnew = 200;
+constexpr double kOnEdge = 1e-9;  // m
 
 constexpr std::uint64_t kOneClearIn = 4;
 
@@ -284,6 +287,7 @@ Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStre
     const Vec3 p_P(random.uniform(-x, x), random.uniform(-y, y),
                    -settings.library.kinds[kind].depth);
     const Case real = settings.real ? Case{settings.real->lump} : Case{};
+    if (insideBy(settings.scoring.rules.area, p_P) < rules.margin - kOnEdge) continue;
     if (farFromAll(drawn, p_P, rules.apart) && farFromAll(settings.anatomy, p_P, rules.apart) &&
         farFromAll(real, p_P, rules.apart))
       drawn.push_back({kind, p_P});
@@ -301,14 +305,26 @@ std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLi
   return lumps;
 }
 
-haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy, double share) {
+namespace {
+
+std::array<float, 3> outwardAt(const TopShape& top, const Vec3& p_P) {
+  const Eigen::Vector3f n = normalOf(top, p_P.x(), p_P.y()).cast<float>();
+  return {n.x(), n.y(), n.z()};
+}
+
+}  // namespace
+
+haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy, double share,
+                            const TopShape& top) {
   haptics::PlacedLumps lumps{};
   std::size_t next = 0;
   for (const Case* some : {&in_case, &anatomy})
     for (const LumpInCase& lump : *some)
       if (next < lumps.size() && lump.is != LumpIs::cast)
-        lumps[next++] = {pack(lump.p_P), static_cast<std::uint32_t>(lump.kind) + 1,
-                         lump.is == LumpIs::taken ? static_cast<float>(share) : 0};
+        lumps[next++] = {.p_T0 = pack(fromTop(top, lump.p_P)),
+                         .kind = static_cast<std::uint32_t>(lump.kind) + 1,
+                         .taken = lump.is == LumpIs::taken ? static_cast<float>(share) : 0,
+                         .n = outwardAt(top, lump.p_P)};
   return lumps;
 }
 

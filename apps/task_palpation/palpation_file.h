@@ -31,7 +31,7 @@ Scoring scoringOf(const JsonFile& task);
 /// Of a lump in a case: computed; cast in the phantom, and felt; cast in it, and taken away.
 enum class LumpIs : std::uint8_t { computed, cast, taken };
 
-/// A lump at a place: P, m.
+/// A lump at a place: P, m, along the top: below which point of it, and how deep along the normal.
 struct LumpInCase {
   std::size_t kind = 0;  ///< of the library, from 0
   Vec3 p_P = Vec3::Zero();
@@ -51,7 +51,8 @@ struct RealLump {
 /// lumps, other rules need a file, not code.
 struct PalpationSettings {
   std::string id, title;
-  Vec3 size = Vec3(0.1, 0.1, 0.05);  ///< m, of the phantom: across, away from the trainee, high
+  /// M, of the phantom: across, away from the trainee, high; its top: scoring.rules.area.top
+  Vec3 size = Vec3(0.1, 0.1, 0.05);
   station::LumpLibrary library;
   CaseRules cases;
   Scoring scoring;
@@ -79,8 +80,9 @@ Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStre
 /// Those that are felt.
 std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library);
 /// What the loop adds, and, `share` of it, what it takes away. Together they are no more than
-/// haptics::kMostLumps.
-haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy, double share = 1);
+/// haptics::kMostLumps. `top`: below which they lie.
+haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy, double share = 1,
+                            const TopShape& top = {});
 bool takesAway(const Case& in_case);
 /// Without force feedback a real lump is felt in every case.
 Case withoutForce(Case in_case);

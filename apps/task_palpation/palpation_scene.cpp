@@ -72,6 +72,8 @@ void PalpationScene::showFelt(scene::SceneState& state) const {
   if (grid.columns > 0 && grid.rows > 0) {
     grid.cell_x = 2 * setup_.area.half_x / grid.columns;
     grid.cell_y = 2 * setup_.area.half_y / grid.rows;
+    grid.top = setup_.area.top;
+    grid.outline = setup_.area.outline;
     grid.levels = status_.levels;
     grid.levels.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),
                        0);
@@ -82,8 +84,10 @@ void PalpationScene::showFelt(scene::SceneState& state) const {
     state.lumps.push_back({setup_.X_AP * lump.p_P, lump.radius, lump.found, lump.normal});
   state.marks_A.clear();
   for (const Vec3& p_P : status_.marks_P)
-    state.marks_A.push_back(setup_.X_AP * Vec3(p_P.x(), p_P.y(), 0));
-  state.lead_A = status_.lead_P ? std::optional<Vec3>(setup_.X_AP * *status_.lead_P) : std::nullopt;
+    state.marks_A.push_back(setup_.X_AP * onTop(setup_.area, p_P));
+  state.lead_A = status_.lead_P
+                     ? std::optional<Vec3>(setup_.X_AP * onTop(setup_.area, *status_.lead_P))
+                     : std::nullopt;
 }
 
 scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::string& trouble) const {

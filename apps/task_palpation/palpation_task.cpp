@@ -6,6 +6,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
+#include "scene/scene_state.h"
 
 namespace palpa::task_palpation {
 
@@ -34,6 +35,7 @@ PalpationListener::PalpationListener(const haptics::TickConfig& config,
                                      const std::optional<haptics::PairConfig>& pair)
     : X_PD_{unpack(config.X_DP).inverse(), unpack(secondOf(config, pair).X_DP).inverse()},
       X_ET_(unpack(config.X_ET)),
+      top_(config.top),
       radius_(config.touch.tip_radius) {}
 
 void PalpationListener::begin(std::uint32_t trial) {
@@ -46,10 +48,10 @@ void PalpationListener::begin(std::uint32_t trial) {
   marks_.clear();
 }
 
-Vec3 PalpationListener::lowestPoint(const haptics::FlightRecord& record) const {
+Vec3 PalpationListener::tipMiddle(const haptics::FlightRecord& record) const {
   const Pose X_DE = makePose(unpack(record.reading.q_DE).normalized().toRotationMatrix(),
                              unpack(record.reading.p_DE));
-  return X_PD_[record.tool & 1] * (X_DE * (X_ET_ * Vec3(0, 0, -radius_))) - radius_ * Vec3::UnitZ();
+  return X_PD_[record.tool & 1] * (X_DE * (X_ET_ * Vec3(0, 0, -radius_)));
 }
 
 bool PalpationListener::add(const haptics::FlightRecord& record) {
@@ -59,7 +61,8 @@ bool PalpationListener::add(const haptics::FlightRecord& record) {
     if (tool == 0) pressed_ = true;  // what is pressed over a pause marks nothing
     return false;
   }
-  const Vec3 p_P = lowestPoint(record);
+  const TopFoot foot = nearestOn(top_, tipMiddle(record));
+  const Vec3 p_P(foot.p.x(), foot.p.y(), foot.over - radius_);
   if (tool == 0) {
     const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
     last_ns_ = record.t_ns;
@@ -71,8 +74,9 @@ bool PalpationListener::add(const haptics::FlightRecord& record) {
   if (kept_ns_[tool] >= 0 && record.t_ns - kept_ns_[tool] < kEvery_ns) return false;
   kept_ns_[tool] = record.t_ns;
   const Vec3 f_D = unpack(record.sensed.f_D) + unpack(record.f_command_D);
-  samples_.push_back(
-      {seconds_, p_P, std::max((X_PD_[tool].linear() * f_D).z(), 0.0), static_cast<int>(tool)});
+  const Vec3 f_P = X_PD_[tool].linear() * f_D;
+  const double f_n = top_.flat() ? f_P.z() : f_P.dot(foot.n);
+  samples_.push_back({seconds_, p_P, std::max(f_n, 0.0), static_cast<int>(tool)});
   return true;
 }
 
@@ -101,7 +105,8 @@ std::vector<std::uint8_t> levelsOf(const assess::CoverageMap& map) {
   std::vector<std::uint8_t> levels;
   for (int row = 0; row < map.rows(); ++row)
     for (int column = 0; column < map.columns(); ++column)
-      levels.push_back(static_cast<std::uint8_t>(map.level(column, row)));
+      levels.push_back(map.asked(column, row) ? static_cast<std::uint8_t>(map.level(column, row))
+                                              : scene::CoverageGrid::kNotAsked);
   return levels;
 }
 
@@ -187,7 +192,7 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   case_ = drawCase(setup_.settings, plan().seed);
   if (!plan().force_feedback) case_ = withoutForce(case_);
   placed_ = placed(case_, setup_.settings.anatomy,
-                   setup_.settings.real ? setup_.settings.real->share : 1);
+                   setup_.settings.real ? setup_.settings.real->share : 1, top());
   listener_.begin(static_cast<std::uint32_t>(status().trial));
   doses_.begin(static_cast<std::uint32_t>(status().trial));
   for (SensorCheck& sensor : sensors_) sensor.reset();
@@ -213,10 +218,10 @@ void PalpationTask::showLumps(const assess::PalpationAssessment* judged) {
   if (!judged && !setup_.see_through) return;
   const std::vector<assess::CaseLump> lumps = lumpsOf(case_, setup_.settings.library);
   for (std::size_t i = 0; i < lumps.size(); ++i)
-    shown_.lumps.push_back(
-        {lumps[i].p_P, lumps[i].diameter / 2, judged && judged->score.lumps[i].mark >= 0, false});
+    shown_.lumps.push_back({fromTop(top(), lumps[i].p_P), lumps[i].diameter / 2,
+                            judged && judged->score.lumps[i].mark >= 0, false});
   for (const assess::CaseLump& piece : lumpsOf(setup_.settings.anatomy, setup_.settings.library))
-    shown_.lumps.push_back({piece.p_P, piece.diameter / 2, false, true});
+    shown_.lumps.push_back({fromTop(top(), piece.p_P), piece.diameter / 2, false, true});
 }
 
 trial::TrialTask::Conclusion PalpationTask::conclude(Outcome outcome, const std::string& reason) {

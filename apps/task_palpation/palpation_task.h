@@ -17,8 +17,9 @@
 namespace palpa::task_palpation {
 
 /// Makes of recorded ticks what a palpation is judged by; the same for a session and for its
-/// replay. Place: the lowest point of the round tip, on whose end T is. How hard it is pressed:
-/// what the hand has to hold against along P's z, the real thing and the device together. A mark:
+/// replay. Place, along the top: the point of the round tip, on whose end T is, that is nearest to
+/// it or deepest in it. How hard it is pressed: what the hand has to hold against along the top's
+/// normal there, the real thing and the device together. A mark:
 /// button 1 of the device goes down while the tip is not above the phantom's top by more than
 /// `kOver`; beside the area, too, where it is a false alarm. Of two tools each is felt for itself;
 /// the first one's clock and button count.
@@ -44,10 +45,11 @@ class PalpationListener {
   const std::vector<assess::LumpMark>& marks() const { return marks_; }
 
  private:
-  Vec3 lowestPoint(const haptics::FlightRecord& record) const;
+  Vec3 tipMiddle(const haptics::FlightRecord& record) const;  // P
 
   std::array<Pose, 2> X_PD_;  // of each device
   Pose X_ET_;
+  TopShape top_;
   double radius_;
   std::uint32_t trial_ = 0;
   std::int64_t last_ns_ = -1;
@@ -128,6 +130,7 @@ class PalpationTask final : public trial::TrialTask {
   void publishStatus(std::int64_t now_ns) override;
   void receive(const trial::UserRequest& request, std::int64_t now_ns) override;
   void showLumps(const assess::PalpationAssessment* judged);
+  const TopShape& top() const { return setup_.settings.scoring.rules.area.top; }
   const PalpationPlan& plan() const {
     return setup_.plan[static_cast<std::size_t>(status().trial - 1)];
   }

@@ -23,6 +23,7 @@ std::string with(const char* pattern, double number) {
 
 SensorCheck::SensorCheck(const haptics::TickConfig& config)
     : X_PD_(unpack(config.X_DP).inverse()),
+      top_(config.top),
       radius_(config.touch.tip_radius),
       x0_(config.touch.surface.contact.x0),
       least_N_(config.touch.surface.contact.least_contact),
@@ -35,8 +36,9 @@ void SensorCheck::reset() {
 }
 
 SensorCheck::Sensed SensorCheck::sensedIn(const haptics::FlightRecord& record) const {
-  return {(X_PD_ * unpack(record.sensed.p_DK)).z() - radius_,
-          X_PD_.linear() * unpack(record.sensed.f_D)};
+  const Vec3 f_P = X_PD_.linear() * unpack(record.sensed.f_D);
+  const TopFoot foot = nearestOn(top_, X_PD_ * unpack(record.sensed.p_DK));
+  return {foot.over - radius_, top_.flat() ? f_P : Vec3(turnToNormal(foot.n).transpose() * f_P)};
 }
 
 double SensorCheck::inTheAir(const haptics::FlightRecord& record) const {

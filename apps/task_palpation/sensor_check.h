@@ -29,13 +29,14 @@ class SensorCheck {
 
  private:
   struct Sensed {
-    double height = 0;  ///< m, of the lowest point above the top
-    Vec3 f_P = Vec3::Zero();
+    double height = 0;        ///< m, of the tip over the top, along its normal
+    Vec3 f_P = Vec3::Zero();  ///< turned so that this normal is z
   };
   Sensed sensedIn(const haptics::FlightRecord& record) const;
   std::string pressed(const Sensed& now);
 
   Pose X_PD_;
+  TopShape top_;
   double radius_, x0_, least_N_;
   haptics::HuntCrossley law_;
   double air_s_ = 0, reversed_s_ = 0;

@@ -30,7 +30,8 @@ LumpSearch::LumpSearch(const PalpatingSkill& skill, const VisiblePhantom& phanto
       phantom_(phantom),
       seed_(seed),
       fingers_(fingers),
-      strips_(std::max(1, static_cast<int>(std::ceil(2 * phantom.half_x / skill.strip - 1e-9)))),
+      strips_(std::max(1, static_cast<int>(std::ceil(
+                              2 * phantom.half_x * phantom.longer.x() / skill.strip - 1e-9)))),
       judgement_(seed, "palpating.judgement.0"),
       memory_(skill.pressures.size()) {
   const double width = 2 * phantom_.half_x / strips_;
@@ -53,20 +54,30 @@ void LumpSearch::begin(int trial) {
 
 void LumpSearch::planStrips() {
   places_.clear();
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_y / skill_.step - 1e-9)));
+  const int steps = std::max(
+      1,
+      static_cast<int>(std::ceil(2 * phantom_.half_y * phantom_.longer.y() / skill_.step - 1e-9)));
   for (int i = 0; i < skill_.area_share * strips_; ++i) {
     if (fingers_ > 1 && (i / beside_) % 2 == 1) continue;  // the other finger's
     for (int k = 0; k < steps; ++k) {
       const int j = i % 2 == 0 ? k : steps - 1 - k;
-      const Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips_ - 1),
-                         phantom_.half_y * ((2 * j + 1.0) / steps - 1), 0);
-      if (judgement_.uniform() < skill_.skip) continue;
+      Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips_ - 1),
+                   phantom_.half_y * ((2 * j + 1.0) / steps - 1), 0);
+      if (judgement_.uniform() < skill_.skip || !takeIn(&planned)) continue;
       places_.push_back(planned +
                         skill_.wander * Vec3(judgement_.normal(), judgement_.normal(), 0));
     }
   }
   std::reverse(places_.begin(), places_.end());
+}
+
+/// Beside the outline a finger still feels what lies in it; farther off nobody presses.
+bool LumpSearch::takeIn(Vec3* planned) const {
+  if (!phantom_.to_area) return true;
+  const Vec3 there = phantom_.to_area(*planned);
+  const bool near = across(there, *planned) <= 0.5 * std::min(skill_.strip, skill_.step);
+  *planned = there;
+  return near;
 }
 
 /// As far as it matters: where nothing of it is felt any more, one place is like another.
@@ -238,6 +249,7 @@ void LumpSearch::pressAfresh(const Vec3& p_P, int times, Look look) {
 /// Nobody asks what lies beyond the outline; and toward the edge of a block it gives way less by
 /// itself.
 Vec3 LumpSearch::inArea(const Vec3& p_P) const {
+  if (phantom_.to_area) return phantom_.to_area(p_P);
   return {std::clamp(p_P.x(), -phantom_.half_x, phantom_.half_x),
           std::clamp(p_P.y(), -phantom_.half_y, phantom_.half_y), p_P.z()};
 }

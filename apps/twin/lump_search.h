@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "anatomy/base/random.h"
-#include "anatomy/geometry/pose.h"
+#include "anatomy/geometry/top_shape.h"
 #include "apps/twin/hand.h"
 #include "apps/twin/operator_skills.h"
 #include "apps/twin/touch_memory.h"
 
 namespace palpa::twin {
 
-/// What anybody sees of the phantom: where it lies on the screen, and the area that is to be
-/// searched. P: origin in the middle of the top, z up.
+/// What anybody sees of the phantom: where it lies on the screen, its shape, and the area that is
+/// to be searched. P: origin in the middle of the top, z up. Places lie along the top.
 struct VisiblePhantom {
   Pose X_AP = Pose::Identity();
   double half_x = 0, half_y = 0;  ///< m
@@ -22,6 +22,12 @@ struct VisiblePhantom {
       /// M, to where something firm belongs in such a body: what books teach, not what this case
       /// holds; empty: nowhere
       from_normal;
+  TopShape top = {};
+  /// The place of the area that is nearest, itself where it lies in it; empty: the rectangle is
+  /// the area
+  std::function<Vec3(const Vec3& p_P)> to_area = {};
+  /// How much longer ways along the top are than they look from above, where it is steepest
+  Eigen::Vector2d longer = Eigen::Vector2d(1, 1);
 };
 
 /// What a simulated person makes of the presses of a search for lumps, and so where to press next:
@@ -56,6 +62,7 @@ class LumpSearch {
     confirm
   };  ///< of a closer look: was it chance, where is it firmest, is it a lump
   void planStrips();
+  bool takeIn(Vec3* planned) const;
   bool lookCloser();
   void beginLook(const Vec3& top_P, const FeltPress& felt);
   bool lookBack();

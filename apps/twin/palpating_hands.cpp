@@ -71,6 +71,7 @@ class PalpatingMind {
                 std::size_t fingers, std::uint64_t seed)
       : skill_(skill),
         X_AP_(phantom.X_AP),
+        top_(phantom.top),
         X_ET_(X_ET),
         X_TE_(X_ET.inverse()),
         search_(skill, phantom, static_cast<int>(fingers), seed) {
@@ -94,15 +95,19 @@ class PalpatingMind {
   void next(double now_s);
   bool presses(std::size_t number) const { return number == 0 || both_; }
   void lower(double by);
+  Pose toolOver(const Vec3& along, const Vec3& trembling) const;
 
   PalpatingSkill skill_;
-  Pose X_AP_, X_ET_, X_TE_;
+  Pose X_AP_;
+  TopShape top_;
+  Pose X_ET_, X_TE_;
   std::vector<Finger> fingers_;
 
   PalpationStep step_ = PalpationStep::rest, after_travel_ = PalpationStep::rest;
   int trial_ = 0;
-  Vec3 at_P_ = Vec3::Zero();  // where the first finger is wanted; its height is each finger's own
-  bool both_ = false;         // press in this press
+  // Where the first finger is wanted, along the top; its height is each finger's own
+  Vec3 at_P_ = Vec3::Zero();
+  bool both_ = false;  // press in this press
   MinJerk move_;
   double since_s_ = 0;
   LumpSearch search_;
@@ -273,15 +278,25 @@ void PalpatingMind::look(std::size_t number, const Hand::Senses& senses, double 
   f.bearings.look(number == 0 ? senses.seen->X_AT : senses.seen->second_X_AT, senses.X_DE * X_ET_,
                   skill_.look_sd, f.speed, f.noise);
   if (!first) return;
-  const Vec3 tip_P = X_AP_.inverse() * f.bearings.X_AT().translation();
+  const Vec3 tip_P = alongTop(top_, X_AP_.inverse() * f.bearings.X_AT().translation());
   f.wanted_z = number == 0 ? tip_P.z() : fingers_[0].wanted_z;
   if (number == 0) at_P_ = tip_P;
 }
 
 void PalpatingMind::feel(Finger& f, const Hand::Senses& senses) {
   const Pose X_PD = X_AP_.inverse() * f.bearings.X_DA().inverse();
-  f.tip_P = X_PD * (senses.X_DE * X_ET_).translation();
-  f.felt_N += kSharp * (-(X_PD.linear() * senses.f_fingers_D).z() - f.felt_N);
+  f.tip_P = alongTop(top_, X_PD * (senses.X_DE * X_ET_).translation());
+  const Vec3 f_P = X_PD.linear() * senses.f_fingers_D;
+  const double along = top_.flat() ? f_P.z() : f_P.dot(normalOf(top_, f.tip_P.x(), f.tip_P.y()));
+  f.felt_N += kSharp * (-along - f.felt_N);
+}
+
+/// It points into the top along its normal.
+Pose PalpatingMind::toolOver(const Vec3& along, const Vec3& trembling) const {
+  const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+  if (top_.flat()) return makePose(down, along + trembling);
+  return makePose(turnToNormal(normalOf(top_, along.x(), along.y())) * down,
+                  fromTop(top_, along) + trembling);
 }
 
 /// It is thought when the first finger has felt; what the second felt is then of a thought before.
@@ -295,12 +310,9 @@ Hand::Action PalpatingMind::act(std::size_t number, const Hand::Senses& senses, 
     if (number == 0) think(senses);
   }
   const Vec3 at_P = at_P_ + static_cast<double>(number) * search_.apart();
-  const Vec3 tip_P = Vec3(at_P.x(), at_P.y(), f.wanted_z) + f.tremor.next(dt);
   Hand::Action action;
-  action.X_DH =
-      f.bearings.X_DA() * X_AP_ *
-      makePose(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), tip_P) *
-      X_TE_;
+  action.X_DH = f.bearings.X_DA() * X_AP_ *
+                toolOver(Vec3(at_P.x(), at_P.y(), f.wanted_z), f.tremor.next(dt)) * X_TE_;
   if (number > 0) return action;
   action.buttons = step_ == PalpationStep::mark ? 1u : 0u;
   const bool says_now = word_.kind == Hand::WordKind::done ? step_ == PalpationStep::travel

@@ -52,8 +52,8 @@ auto namedIn(const Phantoms& phantoms, const std::string& name) {
 
 }  // namespace
 
-SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
-                       std::uint64_t seed) {
+SampleTwin::SampleTwin(const station::Station& station, const std::string& name, std::uint64_t seed,
+                       const TopShape& top) {
   if (!station.sample)
     throw UsageError("has no \"sample\"", station.file.name(),
                      "Say where it lies: sample/X_WP, sample/tip_radius_mm");
@@ -65,7 +65,10 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
   if (one != samples.end()) {
     solved_for = one->table.tool_radius;
     has_lump_ = one->block.lump.has_value();
-    phantom_.emplace<PhantomFingersTwin>(one->table, one->both, SiliconeLaw{});
+    if (top.flat())
+      phantom_.emplace<PhantomFingersTwin>(one->table, one->both, SiliconeLaw{});
+    else
+      phantom_.emplace<CurvedPhantomTwin>(one->table, SiliconeLaw{}, top);
   } else {
     const std::vector<LayeredPhantom> objects = objectsOf(station);
     const auto object = namedIn(objects, name);
@@ -73,15 +76,25 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
     solved_for = object->table.tool_radius;
     phantom_.emplace<LayeredPhantomTwin>(*object, SiliconeLaw{});
   }
+  if (!top.flat() && (has_lump_ || !std::holds_alternative<CurvedPhantomTwin>(phantom_)))
+    throw UsageError("is cast in flat blocks only", "\"" + name + "\"", "Choose the first sample");
   if (std::abs(solved_for - radius_) > 1e-6)
     station.file.refuse("sample/tip_radius_mm", "is not that of the simulated samples");
 }
 
+Vec3 SampleTwin::middleIn(const Pose& X_WT) const {
+  return X_WP_.inverse() * (X_WT * Vec3(0, 0, -radius_));
+}
+
 Vec3 SampleTwin::lowestIn(const Pose& X_WT) const {
-  return X_WP_.inverse() * (X_WT * Vec3(0, 0, -radius_)) - radius_ * Vec3::UnitZ();
+  return middleIn(X_WT) - radius_ * Vec3::UnitZ();
 }
 
 SampleTouch SampleTwin::step(const Pose& X_WT, double dt) {
+  if (auto* curved = std::get_if<CurvedPhantomTwin>(&phantom_)) {
+    const PhantomTouch touch = curved->step(middleIn(X_WT), dt);
+    return told(touch, middleIn(X_WT) - radius_ * touch.n);
+  }
   const Vec3 lowest_P = lowestIn(X_WT);
   if (auto* object = std::get_if<LayeredPhantomTwin>(&phantom_))
     return told(object->step(lowest_P, dt), lowest_P);
@@ -92,7 +105,8 @@ std::array<SampleTouch, 2> SampleTwin::step(const std::array<Pose, 2>& X_WT, dou
   const std::array<Vec3, 2> lowest_P{lowestIn(X_WT[0]), lowestIn(X_WT[1])};
   auto* const sample = std::get_if<PhantomFingersTwin>(&phantom_);
   if (!sample)
-    throw Error("cannot be felt with two tools", "the simulated object", "Choose a sample");
+    throw Error("cannot be felt with two tools", "the simulated object",
+                "Choose a sample with a flat top");
   const std::array<PhantomTouch, 2> touches = sample->step(lowest_P, dt);
   return {told(touches[0], lowest_P[0]), told(touches[1], lowest_P[1])};
 }

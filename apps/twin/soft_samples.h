@@ -21,22 +21,25 @@ class SampleTwin {
  public:
   /// One of the station's simulated samples or objects ("twin/samples", "twin/objects": files of
   /// assets/phantoms without their ending); "" is the first sample. Throws UsageError for a station
-  /// without samples, or a name that is none of theirs.
-  SampleTwin(const station::Station& station, const std::string& name, std::uint64_t seed);
+  /// without samples, or a name that is none of theirs. `top`: as it was cast; where that is
+  /// curved, a sample without a lump is felt with one tool.
+  SampleTwin(const station::Station& station, const std::string& name, std::uint64_t seed,
+             const TopShape& top = {});
 
   /// The tool (z along it, T on its end) is there after another `dt`.
   SampleTouch step(const Pose& X_WT, double dt);
-  /// Of two tools on a sample without a lump. Throws Error for an object.
+  /// Of two tools on a sample without a lump. Throws Error for an object and for a curved top.
   std::array<SampleTouch, 2> step(const std::array<Pose, 2>& X_WT, double dt);
 
  private:
+  Vec3 middleIn(const Pose& X_WT) const;  // of the tip, in P
   Vec3 lowestIn(const Pose& X_WT) const;  // in P
   SampleTouch told(const PhantomTouch& touch, const Vec3& lowest_P) const;
 
   Pose X_WP_;
   double radius_ = 0;
   bool has_lump_ = false;
-  std::variant<std::monostate, PhantomFingersTwin, LayeredPhantomTwin> phantom_;
+  std::variant<std::monostate, PhantomFingersTwin, LayeredPhantomTwin, CurvedPhantomTwin> phantom_;
 };
 
 /// A mass with a soft side toward each of two tools, on a stand from which it can be lifted: free

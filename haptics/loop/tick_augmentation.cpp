@@ -27,13 +27,15 @@ Vec3 holdForce(const FloorRendering& law, const Vec3& p_F, const Vec3& v_F) noex
   return size > law.hold_force_N ? Vec3(f * (law.hold_force_N / size)) : f;
 }
 
-/// From the nearest lump's edge, across the phantom's top; below 0: over the lump.
+/// From the nearest lump's edge, along the surface over it; below 0: over the lump.
 double lumpEdge(const TickConfig& config, const TickFrame& frame) noexcept {
   double nearest = kFarAway;
   const Vec3 p_P = touchIn(config, frame.record.sensed).p_M;
   for (const PlacedLump& lump : frame.record.commands.lumps) {
     if (lump.kind < 1 || lump.kind > kMostLumpKinds || lump.taken > 0) continue;
-    const double across = pinned::hypot(p_P.x() - lump.p_T0[0], p_P.y() - lump.p_T0[1]);
+    const Vec3 n = outwardOver(lump), from = p_P - unpack(lump.p_T0);
+    const double across = n == Vec3::UnitZ() ? pinned::hypot(from.x(), from.y())
+                                             : Vec3(from - from.dot(n) * n).norm();
     nearest = std::min(nearest, across - config.lump_radius[lump.kind - 1]);
   }
   return nearest;
@@ -108,12 +110,16 @@ void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch&
   in->valley_radius = valley.radius;
 }
 
-Vec3 upOf(const TickConfig& config, const TickState& state) noexcept {
+/// Out of what is touched: where that is real, by its shape under the tool, which no friction
+/// bends.
+Vec3 upOf(const TickConfig& config, const TickState& state, const SensedForce& sensed) noexcept {
   switch (config.contact_mode) {
     case ContactMode::floor:
       return FloorFrame(config).toD(Vec3::UnitZ());
     case ContactMode::sensed_object:
-      return unpack(config.X_DP.q).normalized() * Vec3::UnitZ();
+      return unpack(config.X_DP.q).normalized() *
+             (config.top.flat() ? Vec3(Vec3::UnitZ())
+                                : nearestOn(config.top, touchIn(config, sensed).p_M).n);
     case ContactMode::needle:
     case ContactMode::probe:
       return state.now.number ? unpack(state.now.skin.n) : Vec3(Vec3::Zero());
@@ -198,7 +204,7 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   in.allowed = frame->record.commands.augmented;
   in.f_contact = contact.f_D;
   in.v = unpack(state.tip.v_D);
-  in.up = upOf(config, state);
+  in.up = upOf(config, state, frame->record.sensed);
   in.tool = frame->pose.a_D;
   in.to_line = toLine(frame->record.commands, p_D);
   in.out_of = outOf(frame->record.commands, p_D);

@@ -3,6 +3,7 @@
 #include <array>
 #include <type_traits>
 
+#include "anatomy/geometry/top_shape.h"
 #include "haptics/augmentation/augmentation.h"
 #include "haptics/contact/needle_contact.h"
 #include "haptics/contact/probe_contact.h"
@@ -42,6 +43,7 @@ struct TickConfig {
   TouchAugmentation touch;
   PulseLaw pulse;
   PackedPose X_DP;  ///< the real thing, in whose frame its lumps lie
+  TopShape top;     ///< of the real thing, in P; flat: the plane z = 0
   PackedPose X_DF;  ///< the floor
   FloorRendering floor;
   AugmentationPlan augmentations;

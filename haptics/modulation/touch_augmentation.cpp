@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/geometry/top_shape.h"
+
 namespace palpa::haptics {
 namespace {
 
@@ -44,7 +46,30 @@ void takeAway(const TouchAugmentation& law, const PlacedLumps& lumps,
   }
 }
 
+/// In the frame at its place in which the normal over it is z.
+InclusionAnswer feelTilted(const VirtualInclusion& law, const PlacedLump& lump,
+                           const std::array<InclusionContact, 2>& contacts, double dt,
+                           InclusionState* state) noexcept {
+  const Vec3 p_T0 = unpack(lump.p_T0), n = outwardOver(lump);
+  if (n == Vec3::UnitZ()) return feelInclusion(law, p_T0, contacts, dt, state);
+  const Mat3 R = turnToNormal(n);
+  std::array<InclusionContact, 2> own = contacts;
+  for (InclusionContact& contact : own) {
+    contact.p_H = R.transpose() * (contact.p_H - p_T0);
+    contact.u_n = R.transpose() * contact.u_n;
+  }
+  InclusionAnswer answer = feelInclusion(law, Vec3::Zero(), own, dt, state);
+  for (Vec3& f : answer.f_T) f = R * f;
+  return answer;
+}
+
 }  // namespace
+
+Vec3 outwardOver(const PlacedLump& lump) noexcept {
+  const Vec3 n = Eigen::Vector3f(lump.n[0], lump.n[1], lump.n[2]).cast<double>();
+  const double length = n.norm();
+  return length > 0.5 && length < 2 && n.z() > 0 ? Vec3(n / length) : Vec3(Vec3::UnitZ());
+}
 
 AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,
                             const std::array<ToolTouch, 2>& tools, double dt,
@@ -74,8 +99,8 @@ AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lum
       state->lumps[i] = {};
       continue;
     }
-    const InclusionAnswer lump = feelInclusion(law.kinds[lumps[i].kind - 1], unpack(lumps[i].p_T0),
-                                               contacts, dt, &state->lumps[i]);
+    const InclusionAnswer lump =
+        feelTilted(law.kinds[lumps[i].kind - 1], lumps[i], contacts, dt, &state->lumps[i]);
     now.d[i] = pack(lump.d);
     now.iterations += lump.iterations;
     for (std::size_t t = 0; t < 2; ++t) {

@@ -53,9 +53,12 @@ struct AugmentedTouch {
   std::array<Vec3, 2> f_lumps{Vec3::Zero(), Vec3::Zero()};
   std::array<Vec3, 2> f_taken{Vec3::Zero(), Vec3::Zero()};
   std::uint8_t taking = 0;              ///< 1: f_taken has the place of what changes the surface
-  std::array<Packed3, kMostLumps> d{};  ///< m, how far the lumps are pushed
+  std::array<Packed3, kMostLumps> d{};  ///< m, how far the lumps are pushed, in their own frames
   int iterations = 0;  ///< of all lumps' solvers; at most kMostLumps kMostInclusionIterations
 };
+
+/// Unit: the lump's normal; z where it has none that is upward.
+Vec3 outwardOver(const PlacedLump& lump) noexcept;
 
 ///     f_d* = (k~ x* - f_n*) u_n*  [+ f_targ* - f_real*]
 ///            +  w* u_n*  +  sum over lumps (f_T* + f_t* (f_T* . u_n*) / f_n*)
@@ -63,7 +66,9 @@ struct AugmentedTouch {
 /// f_targ: of mu and B of the wanted friction, times the tool's factor (0 or more; else 1).
 /// Where lumps are real and taken off, `takeLumps` has the place of the first line: nothing else is
 /// changed of the surface then. Each lump feels both tools, and no other lump. Where there is no
-/// contact there is no force. No allocation, no exception.
+/// contact there is no force. Below a curved surface a lump's bed lies across the normal over it:
+/// what is felt of the lump is computed in the frame in which that is z. No allocation, no
+/// exception.
 AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,
                             const std::array<ToolTouch, 2>& tools, double dt,
                             TouchAugmentationState* state) noexcept;

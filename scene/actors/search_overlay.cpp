@@ -38,12 +38,14 @@ bool isSound(const CoverageGrid& grid) {
 
 bool sameSheet(const CoverageGrid& a, const CoverageGrid& b) {
   return a.columns == b.columns && a.rows == b.rows && a.cell_x == b.cell_x &&
-         a.cell_y == b.cell_y && a.X_AG.matrix() == b.X_AG.matrix();
+         a.cell_y == b.cell_y && a.X_AG.matrix() == b.X_AG.matrix() && a.top == b.top &&
+         a.outline == b.outline;
 }
 
 Rgba feltColour(std::uint8_t level) {
   switch (level) {
     case 0:
+    case CoverageGrid::kNotAsked:
       return {colour::kFeltLight[0], colour::kFeltLight[1], colour::kFeltLight[2], 0};
     case 1:
       return colour::kFeltLight;
@@ -58,30 +60,45 @@ std::uint8_t toByte(double share) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
 }
 
-std::array<Vec3, 4> cornersOf(const CoverageGrid& grid) {
+/// How many pieces a curved sheet has for each cell: then it stays above the skin's mesh.
+constexpr int kPieces = 3;
+
+Vec3 overTop(const CoverageGrid& grid, double x, double y) {
+  return grid.X_AG * fromTop(grid.top, Vec3(x, y, kOverSurface));
+}
+
+/// From (-1, -1) to (1, 1) over the grid.
+Vec3 overGrid(const CoverageGrid& grid, double u, double v) {
+  return overTop(grid, u * 0.5 * grid.columns * grid.cell_x, v * 0.5 * grid.rows * grid.cell_y);
+}
+
+std::vector<Eigen::Vector2d> cornersOf(const CoverageGrid& grid) {
+  if (grid.outline.size() >= 3) return grid.outline;
   const double x = 0.5 * grid.columns * grid.cell_x, y = 0.5 * grid.rows * grid.cell_y;
-  const auto at = [&](double dx, double dy) {
-    return Vec3(grid.X_AG * Vec3(dx, dy, kOverSurface));
-  };
-  return {at(-x, -y), at(x, -y), at(x, y), at(-x, y)};
+  return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+}
+
+/// Once around, in short pieces where the top is curved.
+std::vector<Vec3> edgeOf(const CoverageGrid& grid) {
+  constexpr double kPiece = 2e-3;  // m
+  const std::vector<Eigen::Vector2d> corners = cornersOf(grid);
+  std::vector<Vec3> edge;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d from = corners[i], way = corners[(i + 1) % corners.size()] - from;
+    const int pieces =
+        grid.top.flat() ? 1 : std::max(1, static_cast<int>(std::ceil(way.norm() / kPiece)));
+    for (int k = 0; k < pieces; ++k)
+      edge.push_back(
+          overTop(grid, from.x() + way.x() * k / pieces, from.y() + way.y() * k / pieces));
+  }
+  edge.push_back(edge.front());
+  return edge;
 }
 
 }  // namespace
 
 CoverageCarpet::CoverageCarpet(vtkRenderer& renderer, double outline_px)
     : outline_(((void)renderer.AddActor(carpet_), renderer), colour::kText, outline_px) {
-  vtkNew<vtkFloatArray> places;
-  places->SetNumberOfComponents(2);
-  places->SetName("TextureCoordinates");
-  for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
-    places->InsertNextTuple2(u, v);
-  vtkNew<vtkCellArray> cells;
-  for (const vtkIdType last : {2, 3}) {
-    const vtkIdType triangle[] = {0, last - 1, last};
-    cells->InsertNextCell(3, triangle);
-  }
-  sheet_->SetPolys(cells);
-  sheet_->GetPointData()->SetTCoords(places);
   vtkNew<vtkTexture> texture;
   texture->SetInputData(picture_);
   texture->InterpolateOn();
@@ -101,11 +118,29 @@ CoverageCarpet::CoverageCarpet(vtkRenderer& renderer, double outline_px)
 CoverageCarpet::~CoverageCarpet() = default;
 
 void CoverageCarpet::lay(const CoverageGrid& grid) {
-  const std::array<Vec3, 4> corners = cornersOf(grid);
+  const bool flat = grid.top.flat();
+  const int across = flat ? 1 : kPieces * grid.columns, along = flat ? 1 : kPieces * grid.rows;
   vtkNew<vtkPoints> points;
-  for (const Vec3& p : corners) points->InsertNextPoint(p.data());
+  vtkNew<vtkFloatArray> places;
+  places->SetNumberOfComponents(2);
+  places->SetName("TextureCoordinates");
+  vtkNew<vtkCellArray> cells;
+  for (int j = 0; j <= along; ++j) {
+    for (int i = 0; i <= across; ++i) {
+      const double u = static_cast<double>(i) / across, v = static_cast<double>(j) / along;
+      points->InsertNextPoint(overGrid(grid, 2 * u - 1, 2 * v - 1).data());
+      places->InsertNextTuple2(u, v);
+      if (i == 0 || j == 0) continue;
+      const vtkIdType last = j * (across + 1) + i, below = last - across - 1;
+      for (const auto& triangle : {std::array<vtkIdType, 3>{below - 1, below, last},
+                                   std::array<vtkIdType, 3>{below - 1, last, last - 1}})
+        cells->InsertNextCell(3, triangle.data());
+    }
+  }
   sheet_->SetPoints(points);
-  outline_.show({{corners[0], corners[1], corners[2], corners[3], corners[0]}});
+  sheet_->SetPolys(cells);
+  sheet_->GetPointData()->SetTCoords(places);
+  outline_.show({edgeOf(grid)});
 }
 
 // Texels of clear cells have a colour too: sampling between two texels mixes it in.
@@ -172,10 +207,18 @@ SearchOverlay::SearchOverlay(vtkRenderer& on_skin, vtkRenderer& above, double li
 
 SearchOverlay::~SearchOverlay() = default;
 
-// In the plane of what is searched, where that is known; else toward the eye.
+/// Across the top of a grid at a place of it.
+Mat3 layOn(const CoverageGrid& grid, const Vec3& p_A) {
+  const Mat3 R = grid.X_AG.linear();
+  if (grid.top.flat()) return R;
+  const Vec3 p_G = grid.X_AG.inverse() * p_A;
+  return R * turnToNormal(normalOf(grid.top, p_G.x(), p_G.y()));
+}
+
+// On what is searched, where that is known; else toward the eye.
 void SearchOverlay::showLead(const SceneState& state, bool visible, const Sight& sight) {
   if (!visible || !state.lead_A) return lead_.hide();
-  const Mat3 R = state.coverage ? Mat3(state.coverage->X_AG.linear()) : sight.facing();
+  const Mat3 R = state.coverage ? layOn(*state.coverage, *state.lead_A) : sight.facing();
   const Pose at = makePose(R, *state.lead_A + kLeadLift * R.col(2));
   if (lead_drawn_ && at.matrix() == lead_at_.matrix()) return lead_.setVisible(true);
   lead_.show(leadShape(at));

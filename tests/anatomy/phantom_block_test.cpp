@@ -80,6 +80,41 @@ TEST(PhantomBlock, RefusesWhatIsNoBlockAndMakesTheSmallest) {
   EXPECT_LT(phantomBlock(Vec3::Constant(2), "large").organs[0].mesh.points.size(), 120'000u);
 }
 
+TopShape hill() {
+  TopShape top;
+  top.arch_high = 0.02;
+  top.arch_half_x = 0.05;
+  top.arch_half_y = 0.04;
+  top.mound_count = 1;
+  top.mounds[0] = {0.02, 0.01, 0.003, 0.01, 0.008, 0.8, 0.6};
+  return onOrigin(top);
+}
+
+TEST(PhantomBlock, HasTheTopThatItIsGiven) {
+  const TopShape top = hill();
+  const Patient block = phantomBlock(kSize, "block", top);
+  const TriangleMesh& mesh = block.organs[0].mesh;
+  EXPECT_TRUE(isClosed(mesh));
+  int on_top = 0;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const Vec3 p = X_AP().inverse() * mesh.points[i],
+               n = X_AP().linear().transpose() * mesh.normals[i];
+    ASSERT_NEAR(n.norm(), 1, 1e-12);
+    ASSERT_GE(p.z(), -kSize.z() - 1e-12) << "nothing below its base";
+    if (std::abs(p.z() - heightOf(top, p.x(), p.y()).z) > 1e-12) continue;
+    ++on_top;
+    ASSERT_LT((n - normalOf(top, p.x(), p.y())).norm(), 1e-9);
+  }
+  EXPECT_GT(on_top, 1000);
+  const SurfaceQuery query(block);
+  for (const Vec3& along : {Vec3(0.01, 0.02, 0.005), Vec3(-0.03, 0, -0.004)})
+    EXPECT_NEAR(query.closest(0, X_AP() * fromTop(top, along)).distance, along.z(), 1e-4)
+        << "a mesh of 2.5 mm";
+  TopShape low = hill();
+  low.arch_high = 0.06;
+  EXPECT_THROW(phantomBlock(kSize, "block", onOrigin(low)), Error);
+}
+
 TEST(PhantomBlock, GoesThroughAFile) {
   const ScratchFolder folder("block");
   const Patient written = phantomBlock(kSize, "block");

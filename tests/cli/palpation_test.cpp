@@ -182,6 +182,42 @@ TEST(Palpation, ATaskFileIsEnough) {
   EXPECT_TRUE(says(outcome.err, "--side")) << outcome.err;
 }
 
+/// A bit of the neck, with a lump or two: session, report and replay follow its surface, and what a
+/// lump adds is told with the way out of the surface over it.
+TEST(Palpation, ACurvedPhantomIsPalpatedLikeAFlatOne) {
+  const Folder here;
+  const std::filesystem::path assets = std::filesystem::path(PALPA_SOURCE_DIR) / "assets";
+  nlohmann::json task = nlohmann::json::parse(contentOf(assets / "tasks/palpation_neck.json"));
+  task["lumps"] = (assets / "materials/lumps.json").string();
+  task["area"] = {{"half_across_mm", 14},
+                  {"half_away_mm", 10},
+                  {"outline_mm", {{4, -10}, {14, -10}, {14, 10}, {4, 10}}}};
+  task["cases"]["lumps"] = {0, 1};
+  task["cases"]["kinds"] = {"middle"};
+  const std::string file = here.file("neck.json", task.dump());
+  const Outcome held =
+      palpa(palpation({"--task", file, "--operator", "expert", "--seed", "3", "--out", "A"}),
+            here.path());
+  ASSERT_EQ(held.exit_code, 0) << held.err;
+  const std::vector<Row> rows = rowsOf(contentOf(here / "A/trials.csv"));
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_GT(std::stod(rows[0].at("COVERAGE_LIGHT")), 0.9);
+  EXPECT_GT(std::stod(rows[0].at("COVERAGE_DEEP")), 0.9) << "pressed along the normal";
+  EXPECT_TRUE(says(contentOf(here / "A/report.html"), "class=\"contour\""));
+  const Outcome again = palpa({"replay", "A/session.palpa"}, here.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(says(again.out, ": 0 differ")) << again.out;
+  ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
+  const nlohmann::json laws = nlohmann::json::parse(contentOf(here / "ticks.laws.json"));
+  const nlohmann::json& normal = laws.at("lumps").at("1").at(0).at("normal");
+  EXPECT_GT(normal.at(2).get<double>(), 0.7);
+  EXPECT_LT(normal.at(2).get<double>(), 0.9999);
+  const Outcome two =
+      palpa(palpation({"--task", file, "--tools", "2", "--operator", "expert"}), here.path());
+  EXPECT_EQ(two.exit_code, 2);
+  EXPECT_TRUE(says(two.err, "flat top")) << two.err;
+}
+
 TEST(Palpation, WrongUsageIsNamed) {
   const Folder here;
   const Outcome station = palpa(

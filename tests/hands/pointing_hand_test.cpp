@@ -43,7 +43,8 @@ struct Pointed {
     g.X_CA = (s.X_AP * X_PC).inverse();
     return g;
   }
-  explicit Pointed(double held_for_s = 1.5) : setup(standing()), hand(setup), view(seen(setup)) {
+  explicit Pointed(double held_for_s = 1.5, const PointingHandSetup& s = standing())
+      : setup(s), hand(setup), view(seen(setup)) {
     pointAt({0, 0, 0});
     after(held_for_s);
   }
@@ -80,6 +81,29 @@ TEST(PointingHand, HoversOverWhatIsPointedAtWithinTheArea) {
   EXPECT_LT((p.after(0.5).first - Vec3(0.010, -0.015, 0.006)).norm(), 1e-5);
   p.pointAt({0.050, 0, 0});
   EXPECT_LT((p.after(0.5).first - Vec3(0.030, 0, 0.006)).norm(), 1e-5);
+}
+
+/// Over a hill it is where the eye meets that, along its normal, within its outline.
+TEST(PointingHand, FollowsACurvedTop) {
+  PointingHandSetup s = Pointed::standing();
+  s.top.arch_high = 0.02;
+  s.top.arch_half_x = s.top.arch_half_y = 0.05;
+  s.top = onOrigin(s.top);
+  s.to_area = [](const Vec3& p_P) { return Vec3(std::max(p_P.x(), -0.015), p_P.y(), p_P.z()); };
+  Pointed p(1.5, s);
+  const Vec3 there = fromTop(s.top, Vec3(0.018, -0.012, 0));
+  p.pointAt(there);
+  const Vec3 over = p.after(0.5).first;
+  EXPECT_LT((alongTop(s.top, over) - Vec3(0.018, -0.012, 0.006)).norm(), 1e-3)
+      << "it looks along the ray by the millimetre";
+  p.input.left_button = true;
+  p.say();
+  const Vec3 deep = p.after(3).first, n = normalOf(s.top, over.x(), over.y());
+  EXPECT_LT((over - deep).normalized().cross(n).norm(), 0.05);
+  EXPECT_NEAR(alongTop(s.top, deep).z(), -0.009, 1e-6);
+  p.input.left_button = false;
+  p.pointAt(fromTop(s.top, Vec3(-0.025, 0, 0)));
+  EXPECT_NEAR(alongTop(s.top, p.after(0.5).first).x(), -0.015, 1e-3);
 }
 
 TEST(PointingHand, StaysWhereNothingIsPointedAt) {

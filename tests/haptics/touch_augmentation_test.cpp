@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "anatomy/geometry/top_shape.h"
 #include "tests/support/allocation_count.h"
 
 namespace palpa::haptics {
@@ -70,6 +71,39 @@ TEST(TouchAugmentation, EveryToolFeelsItsLump) {
   EXPECT_NEAR(both.f_d[0].x(), -both.f_d[1].x(), 1e-4);
   EXPECT_NEAR(both.f_d[0].z(), one.f_d[0].z(), 0.15 * one.f_d[0].z());
   EXPECT_LE(both.iterations, kMostLumps * kMostInclusionIterations);
+}
+
+/// Below a slope a lump is felt as below a level top: all of it is turned, bed included.
+TEST(TouchAugmentation, ALumpBelowASlopeIsTheSameTurned) {
+  TouchAugmentation law = lumpy();
+  const Vec3 n = Vec3(0.3, -0.4, 1).normalized(), place(0.02, 0.01, -0.005);
+  const Mat3 R = turnToNormal(n);
+  PlacedLumps level = placed(1), sloping = level;
+  sloping[0].p_T0 = pack(Vec3(place + R * unpack(level[0].p_T0)));
+  for (std::size_t i = 0; i < 3; ++i)
+    sloping[0].n[i] = static_cast<float>(n[static_cast<Eigen::Index>(i)]);
+  TouchAugmentationState a, b;
+  AugmentedTouch on_level, on_slope;
+  for (double x = 0; x < 0.006; x += 1e-5) {
+    const ToolTouch tool = pressed(0.004, x, 0.01);
+    ToolTouch turned = tool;
+    turned.p_M = place + R * tool.p_M;
+    turned.f_r = R * tool.f_r;
+    on_level = augmentTouch(law, level, {tool, {}}, kTouchTick, &a);
+    on_slope = augmentTouch(law, sloping, {turned, {}}, kTouchTick, &b);
+  }
+  EXPECT_GT(on_level.f_d[0].norm(), 0.1);
+  EXPECT_LT((on_slope.f_d[0] - R * on_level.f_d[0]).norm(), 1e-5) << "n is kept as floats";
+  EXPECT_LT((unpack(on_slope.d[0]) - unpack(on_level.d[0])).norm(), 1e-7);
+  sloping[0].n = {0, 0, 1};
+  b = {};
+  for (double x = 0; x < 0.006; x += 1e-5) {
+    ToolTouch turned = pressed(0.004, x, 0.01);
+    turned.p_M = place + R * turned.p_M;
+    turned.f_r = R * turned.f_r;
+    on_slope = augmentTouch(law, sloping, {turned, {}}, kTouchTick, &b);
+  }
+  EXPECT_GT((on_slope.f_d[0] - R * on_level.f_d[0]).norm(), 1e-3) << "its bed is not round";
 }
 
 /// Stiffness and lump are added, not multiplied.

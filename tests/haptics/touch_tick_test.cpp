@@ -83,6 +83,44 @@ TEST(TouchTick, TwiceAsHardIsAsMuchAgain) {
   EXPECT_NEAR(last.f_command_D[2], forceOf(kRealThing, 0.006, 0), 0.01);
 }
 
+TopShape breast() {
+  TopShape top;
+  top.arch_high = 0.025;
+  top.arch_half_x = top.arch_half_y = 0.05;
+  return onOrigin(top);
+}
+
+/// Pressed into a dome and stroked over its flank, the device pushes along the normal under the tip
+/// by what the depth along it asks for, and a cue's "up" is the normal of the shape.
+TEST(TouchTick, OnADomeItPushesAlongTheNormalUnderTheTip) {
+  const TopShape top = breast();
+  TouchLoop loop;
+  loop.turnThing(makePose(Eigen::AngleAxisd(0.4, Vec3::UnitY()).toRotationMatrix(), {0.1, 0, 0}));
+  loop.config.top = top;
+  loop.config.touch.surface.contact.target.factor = 2;
+  DahlState rubs;
+  FlightRecord last;
+  const auto at = [&](double x, double depth) {
+    return fromTop(top, Vec3(x, 0.01, 0.008 - depth));
+  };
+  const auto feel = [&](double x, double depth, const Vec3& slid) {
+    const Vec3 n = normalOf(top, x, 0.01);
+    const double f_n = forceOf(kRealThing, depth, 0);
+    const Vec3 drag = dragOf(kRealThingsSurface, slid, n, f_n, 1e-3, &rubs);
+    last = loop.step(at(x, depth) - 0.008 * Vec3::UnitZ(), f_n * n - drag);
+  };
+  for (double depth = 0; depth < 0.005; depth += 2e-5) feel(-0.03, depth, Vec3::Zero());
+  for (double x = -0.03; x < 0.03; x += 2e-5) {
+    feel(x, 0.005, at(x + 2e-5, 0.005) - at(x, 0.005));
+    if (x < -0.029) continue;  // until it slides
+    const Vec3 f_P = loop.X_DP.linear().transpose() * unpack(last.f_command_D),
+               n = normalOf(top, x, 0.01);
+    ASSERT_LT(f_P.normalized().cross(n).norm(), 0.06) << "3 degrees, at " << x;
+    ASSERT_NEAR(last.indentation, 0.005, 1e-4) << x;
+    ASSERT_NEAR(f_P.dot(n), forceOf(kRealThing, 0.005, 0), 0.02) << x;
+  }
+}
+
 /// As the trial asks for it; where friction is not modulated, nothing is done.
 TEST(TouchTick, TheTrialSaysHowRoughTheSurfaceIs) {
   const auto addedAlong = [](float friction, bool other) {

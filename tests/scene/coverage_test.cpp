@@ -80,6 +80,29 @@ TEST_F(Search, ACellLiesWhereItsGridSaysAndNowhereElse) {
   EXPECT_NEAR(felt.count, side * side, 2.5 * side);
 }
 
+/// On a hill a cell is drawn where the hill is, and a cell that nobody asks for never.
+TEST_F(Search, ACellLiesOnACurvedTop) {
+  CoverageGrid grid = gridOf(0);
+  grid.top.arch_high = 0.03;
+  grid.top.arch_half_x = grid.top.arch_half_y = 0.05;
+  grid.top = onOrigin(grid.top);
+  const anatomy::Patient hill = anatomy::phantomBlock({0.1, 0.1, 0.05}, "hill", grid.top);
+  SceneView view(offscreen(), hill, {320, 240, FixedViews::none, true});
+  const auto shown = [&] { return (view.show(state_), view.capture()); };
+  state_.coverage = grid;
+  const Image empty = shown();
+  cell(*state_.coverage, 7, 5) = 3;
+  const Blob felt = changed(shown(), empty);
+  const Vec3 level = middleOf(7, 5), p_P = anatomy::X_AP().inverse() * level;
+  const Vec3 there = anatomy::X_AP() * fromTop(grid.top, Vec3(p_P.x(), p_P.y(), 0));
+  const Eigen::Vector2d middle = project(state_.camera, state_.X_CA * there);
+  EXPECT_NEAR(felt.u, middle.x(), 1.5);
+  EXPECT_NEAR(felt.v, middle.y(), 1.5);
+  EXPECT_GT((middle - project(state_.camera, state_.X_CA * level)).norm(), 2) << "lower, farther";
+  cell(*state_.coverage, 7, 5) = CoverageGrid::kNotAsked;
+  EXPECT_EQ(changed(shown(), empty).count, 0);
+}
+
 TEST_F(Search, ThePictureShowsThroughWhatIsFelt) {
   state_.skin = SkinStyle::hidden;
   state_.coverage = gridOf(3);

@@ -77,6 +77,24 @@ TEST(PalpationListener, OfTwoFingersEachIsFeltForItselfAndTheFirstOnesClockAndBu
   EXPECT_NEAR(pressing(listener.samples()), 0.5, 1e-9);
 }
 
+/// Places lie along a curved top, and a press is what goes along its normal.
+TEST(PalpationListener, OnACurvedTopPlaceAndForceAreAlongItsNormal) {
+  haptics::TickConfig c = config();
+  c.top.arch_high = 0.02;
+  c.top.arch_half_x = c.top.arch_half_y = 0.045;
+  c.top = onOrigin(c.top);
+  const Vec3 along(0.02, -0.01, -0.004), n = normalOf(c.top, along.x(), along.y()),
+                                         middle = fromTop(c.top, along + Vec3(0, 0, kRadius));
+  PalpationListener listener(c);
+  listener.begin(1);
+  haptics::FlightRecord r = at(middle - Vec3(0, 0, kRadius), 1'000'000, 0, 0);
+  const Mat3 R_DP = unpack(c.X_DP).linear();
+  r.sensed.f_D = pack(Vec3(R_DP * (0.5 * n + 0.2 * n.unitOrthogonal())));
+  ASSERT_TRUE(listener.add(r));
+  EXPECT_LT((listener.samples()[0].p_P - along).norm(), 1e-9);
+  EXPECT_NEAR(listener.samples()[0].f_n, 0.5, 1e-9);
+}
+
 TEST(PalpationListener, KeepsOneSampleInTenMillisecondsAndNoPauses) {
   PalpationListener listener(config());
   listener.begin(1);

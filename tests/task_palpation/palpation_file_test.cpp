@@ -64,6 +64,59 @@ TEST(PalpationFile, TheShippedOnesAreTaken) {
   EXPECT_EQ(Copy().refusal(), "");
 }
 
+/// Everything of a case lies where it is searched and below the curved top, as deep as the law of
+/// its lump was identified.
+TEST(PalpationFile, TheCurvedOnesHoldTheirLumpsBelowTheirTops) {
+  for (const char* name : {"palpation_breast_curved", "palpation_abdomen_curved",
+                           "palpation_prostate_curved", "palpation_neck", "palpation_forearm"}) {
+    const PalpationSettings task = readPalpation(kAssets / "tasks" / (std::string(name) + ".json"));
+    const assess::SearchArea& area = task.scoring.rules.area;
+    EXPECT_FALSE(area.top.flat()) << name;
+    std::size_t lumps = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      const Case in_case = drawCase(task, seed);
+      lumps += in_case.size();
+      const haptics::PlacedLumps lie = placed(in_case, {}, 1, area.top);
+      for (std::size_t i = 0; i < in_case.size(); ++i) {
+        EXPECT_GE(assess::insideBy(area, in_case[i].p_P), task.cases.margin - 1e-6) << name;
+        const Vec3 n = normalOf(area.top, in_case[i].p_P.x(), in_case[i].p_P.y()),
+                   over = unpack(lie[i].p_T0) + task.library.kinds[in_case[i].kind].depth * n;
+        EXPECT_LT((over - assess::onTop(area, in_case[i].p_P)).norm(), 1e-12) << name;
+        EXPECT_NEAR(n.x(), static_cast<double>(lie[i].n[0]), 1e-6);
+      }
+    }
+    EXPECT_GE(lumps, 20u) << name;
+  }
+}
+
+TEST(PalpationFile, ATopThatNoHandCanFollowIsRefused) {
+  const auto refusalOf = [](const nlohmann::json& shape) {
+    Copy copy;
+    copy.task["phantom"]["shape"] = shape;
+    return copy.refusal();
+  };
+  const nlohmann::json good = {{"arch_high_mm", 15},
+                               {"arch_half_across_mm", 60},
+                               {"arch_half_away_mm", 60},
+                               {"arch_foot_mm", 8}};
+  EXPECT_EQ(refusalOf(good), "");
+  nlohmann::json steep = good, narrow = good, endless = good;
+  steep["arch_high_mm"] = 45;
+  steep["arch_half_across_mm"] = 40;
+  narrow["mounds"] = {{{"across_mm", 0}, {"away_mm", 0}, {"high_mm", -3}, {"wide_across_mm", 4}}};
+  endless["mounds"] = {{{"across_mm", 0}, {"away_mm", 0}, {"high_mm", 3}}};
+  EXPECT_TRUE(has(refusalOf(steep), "steeper than 45 degrees"));
+  EXPECT_TRUE(has(refusalOf(narrow), "narrower than the tip"));
+  EXPECT_TRUE(has(refusalOf(endless), "wide_across_mm"));
+  Copy outlined;
+  outlined.task["area"]["outline_mm"] = {{-20, -20}, {31, 0}, {0, 20}};
+  EXPECT_TRUE(has(outlined.refusal(), "beyond the rectangle"));
+  Copy real;
+  real.task = jsonOf(kAssets / "tasks/palpation_taken.json");
+  real.task["phantom"]["shape"] = good;
+  EXPECT_TRUE(has(real.refusal(), "real_lump"));
+}
+
 TEST(PalpationFile, ARealLumpIsFeltInHalfOfTheCasesAndTakenAwayInTheOthers) {
   const PalpationSettings settings = readPalpation(kAssets / "tasks/palpation_taken.json");
   ASSERT_TRUE(settings.real);

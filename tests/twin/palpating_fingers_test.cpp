@@ -76,5 +76,43 @@ TEST_F(PalpatingFingers, GoOnAfterAPause) {
   EXPECT_GT(presses_, 50);
 }
 
+/// One finger over a dome with an outline: it goes where the area is, and points into the top.
+TEST(PalpatingFinger, FollowsACurvedTopAndPressesAlongItsNormal) {
+  VisiblePhantom phantom{Pose::Identity(), 0.02, 0.02, {}};
+  phantom.top.arch_high = 0.02;
+  phantom.top.arch_half_x = phantom.top.arch_half_y = 0.045;
+  phantom.top = onOrigin(phantom.top);
+  phantom.to_area = [](const Vec3& p_P) {  // a disc
+    const double r = p_P.head<2>().norm();
+    return r > 0.02 ? Vec3(p_P.x() * 0.02 / r, p_P.y() * 0.02 / r, p_P.z()) : p_P;
+  };
+  PalpatingSkill skill = readPalpatingSkill(station::assetFile("operators/palpation_expert.json"));
+  skill.look_sd = skill.tremor_rms = 0;
+  const auto fingers = palpatingFingers(skill, phantom, Pose::Identity(), 1, 7);
+  Pose tip = makePose(rotationWithZ(-Vec3::UnitZ()), Vec3(0, -0.02, 0.05));
+  runtime::Displayed seen;
+  seen.trial = 1;
+  seen.running = true;
+  int deep = 0;
+  double farthest = 0, steepest = 0;
+  for (std::int64_t now_ns = 0; now_ns < 15'000 * runtime::kMillisecond;
+       now_ns += runtime::kMillisecond) {
+    seen.t_ns = now_ns;
+    seen.X_AT = tip;
+    tip = fingers[0]->act({now_ns, tip, Vec3::Zero(), &seen, Vec3::Zero()}, 1e-3).X_DH;
+    const Vec3 along = alongTop(phantom.top, tip.translation());
+    if (along.z() > 0) continue;
+    const Vec3 n = normalOf(phantom.top, along.x(), along.y());
+    ASSERT_LT((tip.linear() * Vec3::UnitZ() + n).norm(), 1e-6);
+    deep += along.z() < -0.008;
+    farthest = std::max(farthest, along.head<2>().norm());
+    steepest = std::max(steepest, n.head<2>().norm());
+  }
+  EXPECT_GT(deep, 100);
+  EXPECT_GT(farthest, 0.015);
+  EXPECT_LT(farthest, 0.025) << "it wanders by a millimetre or two";
+  EXPECT_GT(steepest, 0.25);
+}
+
 }  // namespace
 }  // namespace palpa::twin

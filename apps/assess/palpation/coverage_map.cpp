@@ -11,7 +11,15 @@ CoverageMap::CoverageMap(const SearchArea& area, const PressureLevels& levels, d
       reach_(reach),
       columns_(std::max(1, static_cast<int>(std::lround(2 * area.half_x / kCell)))),
       rows_(std::max(1, static_cast<int>(std::lround(2 * area.half_y / kCell)))),
-      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      Cell& cell = cells_[index(column, row)];
+      cell.asked = insideBy(area_, middle(column, row)) >= 0;
+      cell.z = onTop(area_, middle(column, row)).z();
+    }
+  }
+}
 
 Vec3 CoverageMap::middle(int column, int row) const {
   return {-area_.half_x + (column + 0.5) * 2 * area_.half_x / columns_,
@@ -22,11 +30,13 @@ void CoverageMap::add(const PalpationSample& sample) {
   std::int16_t level = 0;
   for (const double from : levels_) level = static_cast<std::int16_t>(level + (sample.f_n >= from));
   if (level == 0) return;
+  const double z = onTop(area_, sample.p_P).z();
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      if (!((middle(column, row) - sample.p_P).head<2>().norm() <= reach_))
-        continue;  // a place that is none was not felt
       Cell& cell = cells_[index(column, row)];
+      const Vec3 to = middle(column, row) - sample.p_P;
+      if (!(Vec3(to.x(), to.y(), cell.z - z).norm() <= reach_))
+        continue;  // a place that is none was not felt
       cell.visits = static_cast<std::int16_t>(cell.visits + (sample.t_s - cell.last_s > kAnew_s));
       cell.last_s = sample.t_s;
       cell.level = std::max(cell.level, level);
@@ -34,16 +44,21 @@ void CoverageMap::add(const PalpationSample& sample) {
   }
 }
 
+template <class Counts>
+double CoverageMap::shareOf(Counts counts) const {
+  const auto asked =
+      std::count_if(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.asked; });
+  const auto such = std::count_if(cells_.begin(), cells_.end(),
+                                  [&](const Cell& cell) { return cell.asked && counts(cell); });
+  return static_cast<double>(such) / static_cast<double>(std::max<std::ptrdiff_t>(asked, 1));
+}
+
 double CoverageMap::share(int level) const {
-  const auto felt = std::count_if(cells_.begin(), cells_.end(),
-                                  [&](const Cell& cell) { return cell.level >= level; });
-  return static_cast<double>(felt) / static_cast<double>(cells_.size());
+  return shareOf([level](const Cell& cell) { return cell.level >= level; });
 }
 
 double CoverageMap::twice() const {
-  const auto again =
-      std::count_if(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.visits > 1; });
-  return static_cast<double>(again) / static_cast<double>(cells_.size());
+  return shareOf([](const Cell& cell) { return cell.visits > 1; });
 }
 
 namespace {
@@ -65,7 +80,8 @@ std::vector<std::string> unfeltQuarters(const CoverageMap& map) {
   std::array<int, 4> unfelt{};
   for (int row = 0; row < map.rows(); ++row)
     for (int column = 0; column < map.columns(); ++column)
-      unfelt[quarterOf(map.middle(column, row))] += map.level(column, row) == 0;
+      unfelt[quarterOf(map.middle(column, row))] +=
+          map.asked(column, row) && map.level(column, row) == 0;
   const int worst = *std::max_element(unfelt.begin(), unfelt.end());
   std::vector<std::string> quarters;
   for (std::size_t i = 0; i < unfelt.size(); ++i)

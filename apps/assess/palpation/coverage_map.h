@@ -12,7 +12,8 @@ namespace palpa::assess {
 /// What of an area has been felt, and how firmly. A cell has been felt at a level where the tip
 /// pressed at least so hard with its middle within `reach` of the cell's; it has been felt anew
 /// where that came back after `kAnew_s` away. One sample at a time: the screen shows the map while
-/// it grows, the score reads it at the end.
+/// it grows, the score reads it at the end. On a curved top the reach is the straight way between
+/// two places of it.
 class CoverageMap {
  public:
   static constexpr double kCell = 4e-3;  ///< m
@@ -23,23 +24,29 @@ class CoverageMap {
 
   int columns() const { return columns_; }  ///< along x
   int rows() const { return rows_; }        ///< along y, from the trainee away
-  Vec3 middle(int column, int row) const;   ///< of a cell, on the top
+  Vec3 middle(int column, int row) const;   ///< of a cell, along the top
+  /// It lies in the area's outline: only such cells count.
+  bool asked(int column, int row) const { return cells_[index(column, row)].asked; }
   /// 0: not felt, 1 light, 2 medium, 3 deep
   int level(int column, int row) const { return cells_[index(column, row)].level; }
   int visits(int column, int row) const { return cells_[index(column, row)].visits; }
 
-  double share(int level) const;  ///< of the cells felt at this level or a deeper one
+  double share(int level) const;  ///< of the cells asked: felt at this level or a deeper one
   double twice() const;           ///< of the cells felt anew at least once
 
  private:
   struct Cell {
     std::int16_t level = 0, visits = 0;
     double last_s = -1e9;
+    double z = 0;  ///< m, of the top at its middle
+    bool asked = true;
   };
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
+  template <class Counts>
+  double shareOf(Counts counts) const;
   SearchArea area_;
   PressureLevels levels_;
   double reach_;

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "anatomy/geometry/pose.h"
+#include "apps/assess/palpation/search_area.h"
 
 /// What a palpation is judged by: everything in the frame P of the thing that is felt (origin in
-/// the middle of its top, x to the right, y away from the trainee, z up), metres, newtons.
+/// the middle of its top, x to the right, y away from the trainee, z up), metres, newtons. On a
+/// curved top places lie along it: x and y of the nearest point of the top, z how far over it.
 namespace palpa::assess {
 
 /// One tick of the record, thinned to about 100 Hz.
@@ -40,10 +41,5 @@ struct CaseLump {
 /// Light, medium, deep: from how many newtons on a press counts as such.
 inline constexpr std::size_t kPressureLevels = 3;
 using PressureLevels = std::array<double, kPressureLevels>;
-
-/// The part of the top that must be searched: a rectangle about the origin.
-struct SearchArea {
-  double half_x = 0.036, half_y = 0.036;  ///< m
-};
 
 }  // namespace palpa::assess

@@ -85,7 +85,7 @@ void drawCells(Html& svg, const MapFrame& at, const assess::CoverageMap& map) {
     std::string cells, pips;
     for (int row = 0; row < map.rows(); ++row) {
       for (int column = 0; column < map.columns(); ++column) {
-        if (map.level(column, row) != level) continue;
+        if (map.level(column, row) != level || !map.asked(column, row)) continue;
         const Vec3 middle = map.middle(column, row);
         cells += cellPath(at.x(middle) - width / 2, at.y(middle) - height / 2, width, height);
         pips += pipsPath(level, at.x(middle), at.y(middle), std::min(width, height) / 4);
@@ -94,7 +94,53 @@ void drawCells(Html& svg, const MapFrame& at, const assess::CoverageMap& map) {
     if (!cells.empty()) svgPath(svg, "cell level-" + std::to_string(level), cells);
     if (!pips.empty()) svgPath(svg, "pips level-" + std::to_string(level), pips);
   }
-  svgRect(svg, "edge", at.left, at.top, at.width, at.height);
+}
+
+/// Of the area: a rectangle, or its outline.
+void drawEdge(Html& svg, const MapFrame& at, const assess::SearchArea& area) {
+  if (area.outline.empty()) return svgRect(svg, "edge", at.left, at.top, at.width, at.height);
+  std::string path;
+  for (const Eigen::Vector2d& corner : area.outline) {
+    const Vec3 p(corner.x(), corner.y(), 0);
+    path += (path.empty() ? 'M' : 'L') + coordinate(at.x(p)) + ' ' + coordinate(at.y(p));
+  }
+  svgPath(svg, "edge", path + 'z');
+}
+
+constexpr double kContour = 2e-3;  // m, from one line of equal height to the next
+
+/// Where one side of a cell crosses a height; two of them make a piece of its line.
+std::string contourIn(const MapFrame& at, const std::array<Vec3, 3>& corners, double height) {
+  std::string path;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = corners[i], &b = corners[(i + 1) % 3];
+    if ((a.z() < height) == (b.z() < height)) continue;
+    const Vec3 p = a + (height - a.z()) / (b.z() - a.z()) * (b - a);
+    path += (path.empty() ? 'M' : 'L') + coordinate(at.x(p)) + ' ' + coordinate(at.y(p));
+  }
+  return path;
+}
+
+/// Lines of equal height of a curved top, as a map of hills has them.
+void drawContours(Html& svg, const MapFrame& at, const assess::SearchArea& area) {
+  constexpr int kParts = 24;  // along each side
+  if (area.top.flat()) return;
+  const auto on = [&](int i, int j) {
+    return assess::onTop(
+        area, Vec3(area.half_x * (2.0 * i / kParts - 1), area.half_y * (2.0 * j / kParts - 1), 0));
+  };
+  std::string path;
+  for (int i = 0; i < kParts; ++i) {
+    for (int j = 0; j < kParts; ++j) {
+      for (const auto& half : {std::array{on(i, j), on(i + 1, j), on(i + 1, j + 1)},
+                               std::array{on(i, j), on(i + 1, j + 1), on(i, j + 1)}}) {
+        const auto [low, high] = std::minmax({half[0].z(), half[1].z(), half[2].z()});
+        for (double k = std::ceil(low / kContour); k * kContour <= high; ++k)
+          path += contourIn(at, half, k * kContour);
+      }
+    }
+  }
+  if (!path.empty()) svgPath(svg, "contour", path);
 }
 
 std::string linePath(const MapFrame& at, const assess::NormalAnatomy& normal) {
@@ -199,6 +245,8 @@ void drawMap(Html& html, const PalpationPage& page, const assess::CoverageMap& m
                   " lumps found, " + std::to_string(score.missed) + " missed, " +
                   std::to_string(score.false_alarms) + " false alarms");
   drawCells(html, at, map);
+  drawContours(html, at, page.rules.area);
+  drawEdge(html, at, page.rules.area);
   drawNormal(html, at, page.rules);
   drawLumps(html, at, page.assessment);
   drawMarks(html, at, page);
@@ -221,6 +269,9 @@ void writeCoverageChart(Html& html, const PalpationPage& page) {
   const auto figure = html.in("figure");
   drawMap(html, page, map, kWide);
   drawMap(html, page, map, kNarrow);
+  if (!page.rules.area.top.flat())
+    html.element("figcaption", "Thin lines join places of equal height, " +
+                                   fixed(1e3 * kContour, 0) + " mm from line to line.");
   if (page.samples.empty()) html.element("figcaption", "No motion was recorded in this trial.");
 }
 

@@ -180,6 +180,7 @@ svg .cell.level-2{fill:color-mix(in srgb,var(--blue) 42%,var(--card))}
 svg .cell.level-3{fill:color-mix(in srgb,var(--blue) 78%,var(--card))}
 svg .pips{fill:none;stroke:var(--ink);stroke-width:3;stroke-linecap:round}
 svg .pips.level-3{stroke:var(--on)}
+svg .contour{fill:none;stroke:var(--ink);stroke-width:1;stroke-opacity:.45}
 svg .edge{fill:none;stroke:var(--muted);stroke-width:1.5}
 svg .halo{fill:none;stroke:var(--card);stroke-width:7;stroke-linecap:round}
 svg .normal{fill:none;stroke:var(--muted);stroke-opacity:.55;stroke-linecap:round;stroke-linejoin:round}

@@ -69,6 +69,25 @@ PhantomTouch PhantomTwin::step(const Vec3& tip, double dt) {
   return stepAlone(table_, contact_, tip, dt);
 }
 
+/// The silicone's own frame: z is the normal under the tip.
+PhantomTouch CurvedPhantomTwin::step(const Vec3& middle, double dt) {
+  constexpr double kLeast = 0.25;  // of 1 + r k: in a hollow as narrow as the tip Hertz's law ends
+  const TopFoot foot = nearestOn(top_, middle);
+  const Mat3 R = turnToNormal(foot.n);
+  if (started_) gone_ += R.transpose() * (middle - last_);
+  last_ = middle;
+  started_ = true;
+  const double depth = std::max(0.0, table_.tool_radius - foot.over);
+  const auto [most, least] = curvaturesOf(top_, foot.p.x(), foot.p.y());
+  const double bent = 1 + table_.tool_radius * 0.5 * (most + least);
+  const double elastic = table_.at(0, depth).f_up / std::sqrt(std::max(bent, kLeast));
+  PhantomTouch touch =
+      contact_.step(elastic * Vec3::UnitZ(), Vec3(gone_.x(), gone_.y(), -depth), dt);
+  touch.f = R * touch.f;
+  touch.n = R * touch.n;
+  return touch;
+}
+
 PhantomTouch PhantomFingersTwin::step(const Vec3& tip, double dt) {
   return stepAlone(one_, contacts_[0], tip, dt);
 }

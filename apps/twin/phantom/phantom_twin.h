@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "anatomy/geometry/pose.h"
+#include "anatomy/geometry/top_shape.h"
 #include "apps/twin/phantom/phantom_table.h"
 
 namespace palpa::twin {
@@ -59,6 +59,27 @@ class PhantomTwin {
  private:
   PhantomTable table_;
   SiliconeContact contact_;
+};
+
+/// A simulated phantom without a lump whose top is curved, under a moving round tip: the force of
+/// the elements' flat block, by the depth d to which the tip's surface is below the nearest point
+/// of the top, along the normal there, times Hertz's factor for two curved bodies (Hertz 1882):
+///     F = F_flat(d) / sqrt(1 + r (k_1 + k_2) / 2)      k: the top's curvatures, 1/m; r: the tip's
+/// radius. The middle of the block stands for every place: the elements were solved for no edge
+/// and no slope. Friction along the top. Frame P.
+class CurvedPhantomTwin {
+ public:
+  CurvedPhantomTwin(PhantomTable table, const SiliconeLaw& law, const TopShape& top)
+      : table_(std::move(table)), contact_(law), top_(top) {}
+  /// The middle of the tip is at `middle` after another `dt`.
+  PhantomTouch step(const Vec3& middle, double dt);
+
+ private:
+  PhantomTable table_;
+  SiliconeContact contact_;
+  TopShape top_;
+  Vec3 last_ = Vec3::Zero(), gone_ = Vec3::Zero();  // m; way along the top, in its own frame
+  bool started_ = false;
 };
 
 /// The same under two tools side by side along x, the first `PairTable::apart` beyond the second,
