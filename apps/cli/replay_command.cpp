@@ -194,7 +194,8 @@ void addReplay(CLI::App& program) {
   command->callback([file, seen, command] {
     if (seen->view + !seen->video.empty() + !seen->pictures.empty() > 1)
       throw UsageError("do not go together", "--view, --video and --pictures", "Give one of them");
-    for (const char* option : {"--trial", "--speed", "--from", "--to", "--fps", "--size"})
+    for (const char* option :
+         {"--trial", "--speed", "--from", "--to", "--fps", "--size", "--show-map"})
       if (!seen->wanted() && command->count(option) > 0)
         throw UsageError("has an effect only when a trial is shown again", option,
                          "Add --view, --video FILE or --pictures DIR");

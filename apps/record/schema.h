@@ -13,7 +13,7 @@ inline constexpr std::int64_t kSchemaVersion = 1;
 
 /// Version of the meaning of the binary records; their sizes are compared besides. Raise it when a
 /// field of a recorded struct changes its meaning, unit, type or place.
-inline constexpr int kLayoutVersion = 8;
+inline constexpr int kLayoutVersion = 9;
 
 /// Ticks in one chunk at most: what a killed process can lose.
 inline constexpr std::size_t kChunkTicks = 200;

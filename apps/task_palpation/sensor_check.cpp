@@ -24,9 +24,8 @@ std::string with(const char* pattern, double number) {
 SensorCheck::SensorCheck(const haptics::TickConfig& config)
     : X_PD_(unpack(config.X_DP).inverse()),
       radius_(config.touch.tip_radius),
-      x0_(config.touch.surface.contact.x0),
-      least_N_(config.touch.surface.contact.least_contact),
-      law_(config.touch.surface.contact.real) {}
+      law_(config.touch.surface.contact),
+      map_(config.touch.map) {}
 
 void SensorCheck::reset() {
   air_s_ = reversed_s_ = deepest_ = ratio_ = 0;
@@ -35,8 +34,8 @@ void SensorCheck::reset() {
 }
 
 SensorCheck::Sensed SensorCheck::sensedIn(const haptics::FlightRecord& record) const {
-  return {(X_PD_ * unpack(record.sensed.p_DK)).z() - radius_,
-          X_PD_.linear() * unpack(record.sensed.f_D)};
+  const Vec3 p_P = X_PD_ * unpack(record.sensed.p_DK);
+  return {p_P.z() - radius_, p_P, X_PD_.linear() * unpack(record.sensed.f_D)};
 }
 
 double SensorCheck::inTheAir(const haptics::FlightRecord& record) const {
@@ -49,7 +48,8 @@ std::string SensorCheck::pressed(const Sensed& now) {
   const double depth = -now.height;
   if (depth > std::max(deepest_, kPressed)) {
     deepest_ = depth;
-    ratio_ = now.f_P.z() / haptics::forceOf(law_, depth - x0_, 0);
+    const haptics::HuntCrossley here = haptics::lawAt(law_, map_, now.p_P).real;
+    ratio_ = now.f_P.z() / haptics::forceOf(here, depth - law_.x0, 0);
   }
   if (depth > 0 || deepest_ == 0) return "";
   ratios_.push_back(ratio_);
@@ -69,13 +69,13 @@ std::string SensorCheck::add(const haptics::FlightRecord& record) {
   last_ns_ = record.t_ns;
   if (record.sensed.state != haptics::SensorState::valid || dt <= 0 || dt > kGap_s) return "";
   const Sensed now = sensedIn(record);
-  air_s_ = now.height > kInAir && now.f_P.norm() > least_N_ ? air_s_ + dt : 0;
+  air_s_ = now.height > kInAir && now.f_P.norm() > law_.least_contact ? air_s_ + dt : 0;
   if (air_s_ > kAir_s)
     return with(
         "the force sensor shows %.1f N though nothing is touched: it has drifted, or its scale is "
         "wrong. Zero it again",
         now.f_P.norm());
-  reversed_s_ = now.height < kBelow && now.f_P.z() < -least_N_ ? reversed_s_ + dt : 0;
+  reversed_s_ = now.height < kBelow && now.f_P.z() < -law_.least_contact ? reversed_s_ + dt : 0;
   if (reversed_s_ > kReversed_s)
     return "the force sensor says that the phantom pulls where it is pressed: its sign is wrong. "
            "Look at the sensor's settings";

@@ -20,16 +20,19 @@ struct SampleTouch {
 class SampleTwin {
  public:
   /// One of the station's simulated samples or objects ("twin/samples", "twin/objects": files of
-  /// assets/phantoms without their ending); "" is the first sample. Throws UsageError for a station
-  /// without samples, or a name that is none of theirs.
+  /// assets/phantoms without their ending), or the first sample made of another silicone
+  /// (assets/materials/surfaces.json); "" is the first sample. Throws UsageError for a station
+  /// without samples, or a name that is none of these.
   SampleTwin(const station::Station& station, const std::string& name, std::uint64_t seed);
 
   /// The tool (z along it, T on its end) is there after another `dt`.
   SampleTouch step(const Pose& X_WT, double dt);
+  bool forTwo() const { return std::holds_alternative<PhantomFingersTwin>(phantom_); }
   /// Of two tools on a sample without a lump. Throws Error for an object.
   std::array<SampleTouch, 2> step(const std::array<Pose, 2>& X_WT, double dt);
 
  private:
+  double putDown(const station::Station& station, const std::string& name);
   Vec3 lowestIn(const Pose& X_WT) const;  // in P
   SampleTouch told(const PhantomTouch& touch, const Vec3& lowest_P) const;
 

@@ -1,23 +1,11 @@
 #include "scene/actors/search_overlay.h"
 
-#include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkTexture.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include "scene/renderer_setup.h"
 
 namespace palpa::scene {
 namespace {
@@ -69,42 +57,13 @@ std::array<Vec3, 4> cornersOf(const CoverageGrid& grid) {
 }  // namespace
 
 CoverageCarpet::CoverageCarpet(vtkRenderer& renderer, double outline_px)
-    : outline_(((void)renderer.AddActor(carpet_), renderer), colour::kText, outline_px) {
-  vtkNew<vtkFloatArray> places;
-  places->SetNumberOfComponents(2);
-  places->SetName("TextureCoordinates");
-  for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
-    places->InsertNextTuple2(u, v);
-  vtkNew<vtkCellArray> cells;
-  for (const vtkIdType last : {2, 3}) {
-    const vtkIdType triangle[] = {0, last - 1, last};
-    cells->InsertNextCell(3, triangle);
-  }
-  sheet_->SetPolys(cells);
-  sheet_->GetPointData()->SetTCoords(places);
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(picture_);
-  texture->InterpolateOn();
-  texture->MipmapOff();
-  texture->RepeatOff();
-  texture->EdgeClampOn();
-  const vtkSmartPointer<vtkPolyDataMapper> mapper = makePassMapper();
-  mapper->SetInputData(sheet_);
-  setWrites(*mapper, true, false);  // what lies under it is drawn later, and over it
-  carpet_->SetMapper(mapper);
-  carpet_->SetTexture(texture);
-  carpet_->GetProperty()->LightingOff();
-  carpet_->ForceOpaqueOn();  // in the order of actors, and blended (see Glass)
-  carpet_->VisibilityOff();
-}
+    : carpet_(renderer), outline_(renderer, colour::kText, outline_px) {}
 
 CoverageCarpet::~CoverageCarpet() = default;
 
 void CoverageCarpet::lay(const CoverageGrid& grid) {
   const std::array<Vec3, 4> corners = cornersOf(grid);
-  vtkNew<vtkPoints> points;
-  for (const Vec3& p : corners) points->InsertNextPoint(p.data());
-  sheet_->SetPoints(points);
+  carpet_.lay(corners);
   outline_.show({{corners[0], corners[1], corners[2], corners[3], corners[0]}});
 }
 
@@ -112,9 +71,9 @@ void CoverageCarpet::lay(const CoverageGrid& grid) {
 void CoverageCarpet::dye(const CoverageGrid& grid) {
   const int side = std::clamp(kMost_texels / std::max(grid.columns, grid.rows), 1, kCell_texels);
   const int width = side * grid.columns, height = side * grid.rows;
-  picture_->SetDimensions(width, height, 1);
-  picture_->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* texel = static_cast<std::uint8_t*>(picture_->GetScalarPointer());
+  std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) *
+                                 static_cast<std::size_t>(height));
+  std::uint8_t* texel = rgba.data();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x, texel += 4) {
       const Rgba ink = feltColour(
@@ -125,7 +84,7 @@ void CoverageCarpet::dye(const CoverageGrid& grid) {
       texel[3] = toByte(rim ? kSeam * ink[3] : ink[3]);
     }
   }
-  picture_->Modified();
+  carpet_.dye(width, height, rgba);
 }
 
 void CoverageCarpet::update(const std::optional<CoverageGrid>& grid, bool visible) {
@@ -135,11 +94,9 @@ void CoverageCarpet::update(const std::optional<CoverageGrid>& grid, bool visibl
     dye(*grid);
   if (shown && !(drawn_ && sameSheet(*drawn_, *grid) && drawn_->levels == grid->levels))
     drawn_ = grid;
-  carpet_->SetVisibility(shown);
+  carpet_.setVisible(shown);
   outline_.setVisible(shown);
 }
-
-bool CoverageCarpet::visible() const { return carpet_->GetVisibility() != 0; }
 
 namespace {
 
@@ -165,7 +122,8 @@ std::vector<std::vector<Vec3>> leadShape(const Pose& X_A) {
 }  // namespace
 
 SearchOverlay::SearchOverlay(vtkRenderer& on_skin, vtkRenderer& above, double line_px)
-    : carpet_(on_skin, 0.6 * line_px),
+    : map_(on_skin),
+      carpet_(on_skin, 0.6 * line_px),
       lead_(on_skin, colour::kText, line_px),
       balls_(on_skin, above, 0.9 * line_px),
       pins_(above) {}
@@ -186,7 +144,10 @@ void SearchOverlay::showLead(const SceneState& state, bool visible, const Sight&
 void SearchOverlay::update(const SceneState& state, bool visible, const Sight& sight,
                            double pin_px) {
   balls_above_ = state.skin == SkinStyle::solid;
-  carpet_.update(state.coverage, visible);
+  map_.update(state.surface_map, visible);
+  std::optional<CoverageGrid> felt = state.coverage;
+  if (felt && map_.visible()) std::fill(felt->levels.begin(), felt->levels.end(), std::uint8_t{0});
+  carpet_.update(felt, visible);
   balls_.update(visible ? state.lumps : std::vector<ShownLump>(), sight, balls_above_);
   pins_.update(visible ? state.marks_A : std::vector<Vec3>(), sight, pin_px);
   showLead(state, visible, sight);

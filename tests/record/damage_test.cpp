@@ -120,7 +120,7 @@ TEST(Damage, OtherLayoutIsRefusedWithItsName) {
                   " WHERE key='layout'");
   std::string words;
   EXPECT_EQ(readAll(file, &words), "");
-  EXPECT_NE(words.find("another layout (layout 0, big-endian; known: layout 8"), std::string::npos)
+  EXPECT_NE(words.find("another layout (layout 0, big-endian; known: layout 9"), std::string::npos)
       << words;
 }
 
