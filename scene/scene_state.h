@@ -73,6 +73,24 @@ struct CoverageGrid {
   std::vector<Eigen::Vector2d> outline = {};
 };
 
+/// A figure all over a surface, in colours: nodes of a grid in the plane z = 0 of G, columns along
+/// x, rows along y.
+struct SurfaceMap {
+  Pose X_AG = Pose::Identity();
+  double low_x = 0, low_y = 0, step_x = 0.004, step_y = 0.004;  ///< m; the first node
+  int columns = 0, rows = 0;
+  std::vector<float> values;         ///< row by row from the lowest y
+  std::vector<std::uint8_t> unsure;  ///< of each node; 1: it is hardly known
+  std::string title, unit;           ///< of the legend: "Stiffness", "N/mm"
+};
+
+/// What the colours of a map mean, from one end to the other.
+struct ColourScale {
+  std::string title, low, high;  ///< "Stiffness", "0.12", "0.31 N/mm"
+  bool any_unsure = false;
+  bool operator==(const ColourScale&) const = default;
+};
+
 /// Something that lies inside, seen through the surface.
 struct ShownLump {
   Vec3 p_A = Vec3::Zero();  ///< its middle
@@ -126,6 +144,7 @@ struct Hud {
   std::string marked;   ///< "2": how many lumps were marked
   std::string note;     ///< what to bear in mind: "scaled force: ..."
   std::optional<Timeline> timeline = {};  ///< of a replay
+  std::optional<ColourScale> scale = {};  ///< of a map: the view fills it in
 
   bool operator==(const Hud&) const = default;
 };
@@ -160,6 +179,9 @@ struct SceneState {
   Hud hud;
   /// a carpet on the surface; its outline shows what is to be searched
   std::optional<CoverageGrid> coverage;
+  /// outlives the view that shows it and does not change; null: none. What has been felt is only
+  /// outlined then
+  const SurfaceMap* surface_map = nullptr;
   std::vector<ShownLump> lumps;
   /// where the trainee said "here is one": pins, numbered from 1 in this order
   std::vector<Vec3> marks_A;

@@ -238,6 +238,26 @@ void benchHands(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
   print("held_object_slid_mm", dropped_mm, "mm", params);
 }
 
+/// Each of the four surfaces as base: what is felt in place of its stiffness, and of its friction.
+void benchSurfaces(const twin::Phantom& plain, Noise noise) {
+  for (const twin::SoftSurface& surface :
+       twin::readSoftSurfaces(station::assetFile("materials/surfaces.json"))) {
+    const twin::Phantom block = surface.madeOf(plain);
+    const twin::PhantomTwin phantom(block.table, surface.law);
+    const KnownPhantom known = identifyPhantom(phantom, noise);
+    const std::vector<TouchRun> runs = freshTouches(phantom, noise);
+    double worst = 0;
+    for (const TouchRun& run : runs)
+      for (const double factor : {0.5, 2.0})
+        worst = std::max(worst, stiffnessFigures(known, run, factor).error);
+    nlohmann::json params = paramsOf(noise);
+    params["surface"] = surface.name;
+    print("surface_stiffness_rel_error", worst, "1", params);
+    print("surface_friction_rel_error", frictionModulationError(known, block.table, {runs[2]}), "1",
+          params);
+  }
+}
+
 /// Half way between the forces and speeds of the models: at none of those they were fitted to.
 void benchTextures(bool quick) {
   constexpr std::uint64_t kFreshSeed = 900;
@@ -288,6 +308,7 @@ void benchMaterial(const MaterialBenchOptions& options) {
     if (options.quick && noise != Noise::none) break;
     const KnownPhantom known = identifyPhantom(plain, noise);
     benchContact(phantoms.front(), known, noise);
+    benchSurfaces(phantoms.front(), noise);
     benchSqueeze(phantoms.front().table, known.contact, noise);
     if (noise != Noise::low_passed) benchPulse(plain, known, noise);
     if (noise != Noise::low_passed)

@@ -163,7 +163,7 @@ double estimateError(const PlainTouches& touches, const haptics::StiffnessModula
   for (const auto& [first, second] : touches.ticks) {
     const Vec3 up = tip_radius * Vec3::UnitZ(), off = touches.opposed ? Vec3(-up) : up;
     const haptics::EstimatedReaction told = haptics::estimateReaction(
-        law, {touches.opposed, thickness}, tip_radius, {true, first.tip + up, first.f_r},
+        {law, law}, {touches.opposed, thickness}, tip_radius, {true, first.tip + up, first.f_r},
         second.tip + off, kPhantomTick, &state);
     if (second.truth.contact) error.add(told.f_r - second.truth.f, second.truth.f);
   }

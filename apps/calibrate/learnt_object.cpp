@@ -131,6 +131,26 @@ LearntObject learnObject(const std::vector<FeltSamples>& touches) {
           static_cast<int>(presses.size() - stiff.size())};
 }
 
+station::MappedObject mappedObjectOf(const LearntObject& object,
+                                     const calibration::MappedArea& area) {
+  const calibration::Relaxation& relaxation = object.pressed.relaxation;
+  station::MappedObject mapped;
+  mapped.low = area.low;
+  mapped.high = area.high;
+  mapped.depth = kLearntDepth;
+  mapped.relaxation_share.assign(relaxation.share.begin(), relaxation.share.end());
+  mapped.relaxation_time.assign(relaxation.kTimes.begin(), relaxation.kTimes.end());
+  for (const Vector2d& p : placesOf(area)) {
+    const calibration::MapValue stiffness = object.stiffness.at(p);
+    mapped.stiffness.push_back(stiffness.value);
+    mapped.stiffness_sd.push_back(stiffness.sd);
+    mapped.friction.push_back(object.friction.at(p).value);
+  }
+  mapped.columns = 1 + static_cast<int>(std::lround((area.high - area.low).x() / area.step));
+  mapped.rows = static_cast<int>(mapped.stiffness.size()) / mapped.columns;
+  return mapped;
+}
+
 ObjectTouches touchesIn(const FeltSamples& felt) {
   constexpr double kBefore_s = 0.05, kShortest_s = 0.15;
   ObjectTouches all;

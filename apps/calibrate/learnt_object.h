@@ -4,6 +4,7 @@
 
 #include "apps/calibrate/collect.h"
 #include "apps/calibrate/results.h"
+#include "apps/station/object_map_file.h"
 #include "calibration/touch/object_map.h"
 #include "calibration/touch/relaxing_press.h"
 
@@ -29,6 +30,10 @@ struct LearntObject {
 
 /// Throws Error for touches that tell too little.
 LearntObject learnObject(const std::vector<FeltSamples>& touches);
+
+/// As sessions take it up; no date.
+station::MappedObject mappedObjectOf(const LearntObject& object,
+                                     const calibration::MappedArea& area);
 
 /// The top of a block of 100 x 100 mm, within 10 % on nine tenths of it.
 calibration::MappedArea objectArea();

@@ -262,9 +262,9 @@ Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& orig
   if (o.kind == CalibrationKind::force_sensor)
     return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
   if (o.kind == CalibrationKind::material)
-    return materialResult(collectPresses(scene, "", {}, kPressFor_s), origin);
+    return materialResult(collectPresses(scene, o.surface, {}, kPressFor_s), origin);
   if (o.kind == CalibrationKind::friction)
-    return frictionResult(collectStrokes(scene, "", kStrokeFor_s), origin);
+    return frictionResult(collectStrokes(scene, o.surface, kStrokeFor_s), origin);
   if (o.kind == CalibrationKind::inclusion)
     return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
   if (o.kind == CalibrationKind::object)

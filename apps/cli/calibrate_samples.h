@@ -17,8 +17,7 @@ struct CalibrateOptions {
   bool quiet = false, all_corners = false;
   std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings,
       touches;
-  std::string presses, strokes, without, above, beside, check, mockup = "middle",
-                                                               surface = "sandpaper";
+  std::string presses, strokes, without, above, beside, check, mockup = "middle", surface;
   double depth_mm = 0, mass_g = 0;
   std::vector<double> forces_N, speeds_mm_per_s;
   std::vector<double> down{0, 0, -1};

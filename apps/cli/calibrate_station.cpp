@@ -184,11 +184,14 @@ constexpr Routine kRoutines[] = {
      "force_x_N, ..., torque_x_Nm, ..."},
     {CalibrationKind::material, "How soft a sample is: from presses",
      "Examples:\n  palpa calibrate material\n      on the virtual palpation bench: a simulated "
-     "hand presses the silicone\n  palpa calibrate material --presses presses.csv\n"
+     "hand presses the silicone\n  palpa calibrate material --surface rubber\n      another of the "
+     "four surfaces that can lie "
+     "there: oiled gel, skin, leather, rubber\n  palpa calibrate material --presses presses.csv\n"
      "Columns: t_s; x_mm (or x_m), y_, z_ of the tip's lowest point, z up from the sample's top; "
      "force_x_N, ..."},
     {CalibrationKind::friction, "How a sample's surface rubs: from strokes",
-     "Examples:\n  palpa calibrate friction\n  palpa calibrate friction --strokes "
+     "Examples:\n  palpa calibrate friction\n  palpa calibrate friction --surface rubber\n  palpa "
+     "calibrate friction --strokes "
      "strokes.csv\nColumns as for material"},
     {CalibrationKind::inclusion,
      "What a lump adds to a sample: from presses of one with it and one without",
@@ -278,9 +281,12 @@ void addFiles(CLI::App* command, CalibrateOptions* o) {
         ->delimiter(',')
         ->check(inRange(10.0, 1000.0, "mm/s"))
         ->type_name("MM/S,...");
+    o->surface = "sandpaper";
+  }
+  if (kind == CalibrationKind::material || kind == CalibrationKind::friction ||
+      kind == CalibrationKind::texture)
     command->add_option("--surface", o->surface, "Simulated surface on the virtual bench")
         ->type_name("NAME");
-  }
   if (kind == CalibrationKind::force_sensor) {
     file("--readings", &o->readings, "Recorded static readings");
     command->add_option("--down", o->down, "Where weight pulls, in the device's base")

@@ -75,6 +75,7 @@ void addStudyPlan(CLI::App& study);
 /// How a recorded trial is to be seen.
 struct ReplayViewOptions {
   bool view = false;
+  bool show_map = true;  ///< of what was felt, where the session has one
   std::string video;     ///< film to write
   std::string pictures;  ///< folder for single pictures; both empty: a window
   std::string figures;   ///< folder for figures of a search's floor

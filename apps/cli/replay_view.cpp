@@ -183,6 +183,13 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
       ->check(notNegative("s"));
   command.add_option("--fps", o.frames_per_second, "Pictures per second")
       ->check(inRange(1.0, 120.0, "a second"));
+  command
+      .add_option_function<std::string>(
+          "--show-map", [&o](const std::string& text) { o.show_map = text == "on"; },
+          "Draw the learnt map of what is felt, where the session has one (default on); off: what "
+          "was felt, instead")
+      ->check(oneOf({"on", "off"}))
+      ->type_name("on|off");
   command.add_option("--size", o.size, "Size of the pictures, pixels")->type_name("WxH");
 }
 
@@ -199,6 +206,7 @@ void writeReplayFigures(const std::string& file, const ReplayViewOptions& o) {
 void viewReplay(const std::string& file, const ReplayViewOptions& o) {
   const std::unique_ptr<evidence::RecordedShow> recorded = evidence::recordedShow(file, o.trial);
   const Cut cut = cutOf(o, recorded->length_s());
+  if (!o.show_map) recorded->hideMap();
   if (o.view)
     playInWindow(*recorded, cut, o);
   else if (!o.video.empty())

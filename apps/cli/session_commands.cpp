@@ -46,6 +46,22 @@ void addParacentesis(CLI::App& program) {
 
 namespace {
 
+/// What lies there, where something soft is touched with one tool.
+void addObjectArguments(CLI::App& command, session::SessionOptions& options) {
+  command
+      .add_option(
+          "--surface", options.surface,
+          "What lies on the virtual bench: oiled gel, skin, leather or rubber, or, with its "
+          "map, an object that is not the same everywhere")
+      ->type_name("NAME");
+  command
+      .add_option("--map", options.map,
+                  "What it is like from place to place: the object.json of palpa calibrate object; "
+                  "the laws of what is felt follow it")
+      ->type_name("FILE")
+      ->check(somethingThere(""));
+}
+
 constexpr const char* kPalpationExamples = R"(Examples:
   palpa palpation --operator expert --fast --out A
       a simulated examiner searches silicone for lumps that are not there; open A/report.html
@@ -61,6 +77,11 @@ constexpr const char* kPalpationExamples = R"(Examples:
       two fingers side by side, each on a device of its own; what is found is rolled between them
   palpa palpation --tools 2 --second finger --operator expert --fast
       the second is a finger of the other hand, tracked, without a force sensor: its force is estimated
+  palpa palpation --surface rubber --operator expert --fast
+      the same lumps in another of the four surfaces that can lie on the virtual bench
+  palpa calibrate object --mockup ribs --out ribs
+  palpa palpation --surface ribs --map ribs/object.json --operator expert --fast
+      on a block with two ribs below, learnt by touch before: the map is drawn on it, and what is rendered follows it
   palpa palpation --station my_station.json --guidance on --trials 16
       you, on a station with a haptic device and a force sensor; help that fades; every other case is without it
   palpa palpation
@@ -123,6 +144,11 @@ void addPalpation(CLI::App& program) {
           "bare finger that is tracked, whose force is estimated")
       ->check(oneOf({"device", "finger"}))
       ->type_name("device|finger");
+  addObjectArguments(*command, *options);
+  on_off(
+      "--show-map", options->show_map,
+      "Draw the map's stiffness on what is felt (default on; not with --guidance on, which draws "
+      "its own)");
   addAugmentArgument(*command, *options);
   addRunArguments(*command, *options);
   command->callback([options, preset] {
@@ -166,6 +192,8 @@ void addSortArgument(CLI::App& command, session::SessionOptions& options) {
 constexpr const char* kFrictionExamples = R"(Examples:
   palpa friction --operator expert --fast --trials 16 --out A
       a simulated person strokes over two surfaces, one after the other: which is rougher? Open A/report.html
+  palpa friction --surface leather --operator expert --fast --trials 16
+      on another of the four surfaces that can lie on the virtual bench
   palpa friction --sort --operator expert --fast --trials 4 --out B
       four surfaces, put in order from the smoothest to the roughest
   palpa friction --operator novice --fast --trials 16 --force-feedback off
@@ -188,6 +216,7 @@ void addFriction(CLI::App& program) {
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
   addSortArgument(*command, *options);
+  addObjectArguments(*command, *options);
   addRunArguments(*command, *options);
   command->callback([options] { session::holdFriction(*options); });
 }
@@ -217,6 +246,7 @@ void addPulse(CLI::App& program) {
   command->add_option("--task", options->task, "Task file (default: the shipped one)")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
+  addObjectArguments(*command, *options);
   addRunArguments(*command, *options);
   command->callback([options] { session::holdPulse(*options); });
 }

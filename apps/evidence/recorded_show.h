@@ -19,6 +19,7 @@ class RecordedShow {
   virtual const std::vector<replay::StripMark>& marks() const = 0;
   virtual bool pictures() const { return false; }    ///< of the camera, beside
   virtual bool fixedViews() const { return false; }  ///< as the session had them
+  virtual void hideMap() {}                          ///< of what is felt, where there is one
   /// The view and this outlive it.
   virtual std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) = 0;
 };

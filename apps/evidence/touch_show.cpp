@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/parametric/phantoms.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/replay/touch_replay.h"
 #include "apps/task_palpation/palpation_place.h"
+#include "apps/task_palpation/palpation_scene.h"
 
 namespace palpa::evidence {
 
@@ -123,6 +125,10 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
     const std::optional<haptics::PairConfig>& pair = reader_.info().pair_config;
     if (pair) trial_.X_AD2 = anatomy::X_AP() * unpack(pair->tools[1].X_DP).inverse();
     trial_.estimated = pair && pair->estimated;
+    const nlohmann::json session = parseJson(reader_.info().session_json);
+    if (session.contains("map"))
+      trial_.map =
+          task_palpation::shownMap(station::mappedObjectIn(session["map"]), anatomy::X_AP());
     replay::PalpationReader reader(config(), pair, trial_.number);
     receive(reader, [&] { return reader.seconds(); });
     reader.into(trial_);
@@ -132,6 +138,7 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
   std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) override {
     return replay::palpationReplay(trial_, view);
   }
+  void hideMap() override { trial_.map.reset(); }
 
  private:
   /// What lay inside, and whether it was found.

@@ -1,4 +1,5 @@
 #include <map>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -54,6 +55,23 @@ json surfaceOf(const haptics::TouchAugmentation& touch) {
   if (touch.other_friction) surface["wanted_friction"] = jsonOf(touch.surface.wanted);
   if (touch.texture.speeds > 0) surface["texture"] = textureOf(touch.texture);
   return surface;
+}
+
+/// By how much the object differs from its one law from place to place.
+json mapOf(const haptics::LearntMap& map) {
+  const auto nodes = static_cast<std::ptrdiff_t>(map.columns) * map.rows;
+  const auto listed = [nodes](const auto& all) {
+    return std::vector<float>(all.begin(), all.begin() + nodes);
+  };
+  return {{"about",
+           "k and b of H times stiffness, mu times friction, bilinear between the nodes of a grid "
+           "across P, row by row from the lowest y; faded to 1 within one step beyond the rim"},
+          {"columns", map.columns},
+          {"rows", map.rows},
+          {"low_m", {map.low_x, map.low_y}},
+          {"step_m", {map.step_x, map.step_y}},
+          {"stiffness", listed(map.stiffness)},
+          {"friction", listed(map.friction)}};
 }
 
 json kindsOf(const haptics::TouchAugmentation& touch) {
@@ -161,6 +179,7 @@ std::string lawsJson(const SessionReader& reader) {
                {"surface", surfaceOf(config.touch)},
                {"kinds", kindsOf(config.touch)},
                {"lumps", lumpsOf(reader)}});
+  if (config.touch.map.columns > 0) laws["map"] = mapOf(config.touch.map);
   if (json arteries = arteriesOf(reader); !arteries.empty()) {
     laws["pulse"] = pulseOf(config.pulse);
     laws["arteries"] = std::move(arteries);

@@ -18,7 +18,7 @@ class PalpationReplay final : public TrialReplay {
         recorded_(trial),
         map_(emptyMap()),
         scene_({stage(view), anatomy::X_AP(), trial.rules.area, trial.tip_radius, "", trial.X_AD2,
-                trial.estimated},
+                trial.estimated, trial.map},
                bus_, channels_) {}
 
  private:

@@ -27,6 +27,7 @@ struct PalpationTrial : ShownTrial {
   double tip_radius = 0.008;             ///< m
   std::optional<Pose> X_AD2;             ///< the second device's base, of two
   bool estimated = false;                ///< what the second presses with is no sensor's
+  std::optional<scene::SurfaceMap> map;  ///< of the phantom's stiffness
   std::vector<PalpationMoment> moments;  ///< not empty
   std::vector<assess::PalpationSample> samples;
   std::vector<assess::LumpMark> pressed;  ///< the lumps that were marked

@@ -77,7 +77,7 @@ ComparisonWorld::ComparisonWorld(const SessionOptions& options, Engine of)
       X_WO(station.sample->X_WP *
            makePose(Mat3::Identity(), Vec3(0, 0, tools() == 2 ? -task.half : 0))),
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
-  task.library = station::onStation(std::move(task.library), station.calibrations);
+  task.library = libraryOn(options, station, std::move(task.library));
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
     station.file.refuse("sample/tip_radius_mm",
                         tools() == 2

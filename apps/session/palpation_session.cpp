@@ -51,11 +51,14 @@ PalpationWorld::PalpationWorld(const SessionOptions& options)
                                              : std::filesystem::path(options.task))),
       phantom(anatomy::phantomBlock(task.size, task.title, task.scoring.rules.area.top)),
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
-  task.library = station::onStation(std::move(task.library), station.calibrations);
+  task.library = libraryOn(options, station, std::move(task.library));
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
     station.file.refuse("sample/tip_radius_mm",
                         "is not that of the tip with which the task's lumps were identified");
   if (task.real) task.real->share = takenLimit(options.rate_Hz).share();
+  if (task.real && !options.surface.empty())
+    throw UsageError("lies in the silicone of its task", "A real lump, with --surface",
+                     "Leave one of them out");
   if (task.real && onBench() && task.real->lump.p_P.head<2>().norm() > 1e-6)
     throw UsageError("is in the middle of the bench's samples", "real_lump", "Give 0 and 0");
   if (!onBench() && (station.safety.deadman_button & task_palpation::PalpationListener::kMark))
@@ -156,8 +159,11 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
         .tracker = options.tracked_finger ? std::optional(twin::FingerTracker{}) : std::nullopt};
   if (onBench()) {
     const auto sample = std::make_shared<twin::SampleTwin>(
-        station, task.real ? task.library.kinds[task.real->lump.kind].name : "",
+        station, task.real ? task.library.kinds[task.real->lump.kind].name : options.surface,
         options.benchSeed(), task.scoring.rules.area.top);
+    if (options.tools == 2 && !sample->forTwo())
+      throw UsageError("can be felt with one tool only", "--surface \"" + options.surface + '"',
+                       "Leave out --tools 2, or choose another");
     const bool two = options.tools == 2;
     bench.real_thing = [sample, two](const std::array<Pose, 2>& X_WT_true, double dt) {
       const auto felt = [](const twin::SampleTouch& touch) {
@@ -171,13 +177,19 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
   return {std::move(bench), std::nullopt, task.library.tip_radius, pointing};
 }
 
+std::optional<scene::SurfaceMap> PalpationWorld::shownMap(const SessionOptions& options) const {
+  if (!task.library.map || !options.show_map || options.guidance) return std::nullopt;
+  return task_palpation::shownMap(*task.library.map, anatomy::X_AP());
+}
+
 record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
-  record::SessionInfo info = infoOf(options, head(options),
-                                    {{"guidance", options.guidance},
-                                     {"see_through", options.see_through},
-                                     {"augment", options.augment},
-                                     {"tools", options.tools},
-                                     {"second", options.tracked_finger ? "finger" : "device"}});
+  nlohmann::json own{{"guidance", options.guidance},
+                     {"see_through", options.see_through},
+                     {"augment", options.augment},
+                     {"tools", options.tools},
+                     {"second", options.tracked_finger ? "finger" : "device"}};
+  if (task.library.map) own["map"] = station::jsonOf(*task.library.map);
+  record::SessionInfo info = infoOf(options, head(options), std::move(own));
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);
@@ -238,7 +250,8 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
                                         .tip_radius = world.task.library.tip_radius,
                                         .force_note = world.forceNote(),
                                         .X_AD2 = second,
-                                        .estimated = options.tracked_finger},
+                                        .estimated = options.tracked_finger,
+                                        .map = world.shownMap(options)},
                                        frame.bus(), channels);
   PalpationRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));

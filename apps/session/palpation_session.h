@@ -44,6 +44,8 @@ struct PalpationWorld {
   /// Who may hold the tool: on the bench's silicone a simulated person, or one with a mouse, who
   /// sees what is felt there.
   SessionDevices::Hands hands(const SessionOptions& options) const;
+  /// Of what is felt, as it is drawn; empty: it is not.
+  std::optional<scene::SurfaceMap> shownMap(const SessionOptions& options) const;
   record::SessionInfo info(const SessionOptions& options) const;
   ReportHead head(const SessionOptions& options) const;
   /// What deep is here, and on a patient where that is known; empty: the same.

@@ -22,7 +22,7 @@ PulseWorld::PulseWorld(const SessionOptions& options)
                                                       : std::filesystem::path(options.task))),
       object(anatomy::phantomBlock(task.size, task.title)),
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
-  task.library = station::onStation(std::move(task.library), station.calibrations);
+  task.library = libraryOn(options, station, std::move(task.library));
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
     station.file.refuse("sample/tip_radius_mm",
                         "is not that of the tip with which the silicone was identified");

@@ -1,10 +1,12 @@
 #include "apps/session/session_devices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/nearest_word.h"
 #include "apps/record/session_file.h"
 #include "apps/runtime/clock.h"
 #include "apps/station/assets.h"
@@ -83,13 +85,42 @@ SessionDevices::Hands SessionDevices::overSilicone(const SessionOptions& options
                                 .normal_W = X_WO.linear() * Vec3::UnitZ(),
                                 .seed = options.benchSeed()};
   if (station.device.driver == station::DeviceDriver::bench) {
-    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
+    const auto sample =
+        std::make_shared<twin::SampleTwin>(station, options.surface, options.benchSeed());
     bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
       const twin::SampleTouch touch = sample->step(X_WT_true[0], dt);
       return std::array<twin::RealTouch, 2>{twin::RealTouch{touch.f_W, touch.p_W}, {}};
     };
   }
   return {std::move(bench), std::nullopt, tip_radius};
+}
+
+station::LumpLibrary libraryOn(const SessionOptions& options, const station::Station& station,
+                               station::LumpLibrary library) {
+  if (!options.surface.empty()) {
+    if (station.device.driver != station::DeviceDriver::bench)
+      throw UsageError("lies on the virtual bench only", "--surface \"" + options.surface + '"',
+                       "Leave it out: what lies on a station is what its calibrations say");
+    const std::filesystem::path file = station::assetFile("materials/surfaces.json");
+    const std::vector<std::string> known = station::surfacesIn(file);
+    if (options.map.empty() &&
+        std::find(known.begin(), known.end(), options.surface) == known.end()) {
+      std::string all;
+      for (const std::string& one : known) all += one + ", ";
+      throw UsageError("is not a surface" + didYouMean(options.surface, known),
+                       "--surface \"" + options.surface + '"',
+                       "There are " + all +
+                           "and objects that are not the same everywhere, which need their map: "
+                           "palpa calibrate object --mockup NAME, then --map");
+    }
+    library = station::withSurface(std::move(library), file, options.surface);
+  }
+  library = station::onStation(std::move(library), station.calibrations);
+  if (options.map.empty()) return library;
+  library.map = station::readMappedObject(options.map, station.id);
+  library.simulated = library.simulated || library.map->simulated;
+  library.of_surface += "; from place to place: the map of " + library.map->date.substr(0, 10);
+  return library;
 }
 
 station::Station feelingStation(const SessionOptions& options) {

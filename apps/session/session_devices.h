@@ -29,6 +29,13 @@ station::Station feelingStation(const SessionOptions& options);
 haptics::TickConfig sensedTick(const SessionOptions& options, const station::Station& station,
                                const station::LumpLibrary& library);
 
+/// What a task's tools touch: the task's library with the surface that was asked for as it was
+/// identified, that as this station's own calibrations have it, and the map that was learnt of it.
+/// Throws UsageError for a surface that does not lie there, or that is not the same everywhere
+/// where there is no map of it, and Error for a map that cannot be used.
+station::LumpLibrary libraryOn(const SessionOptions& options, const station::Station& station,
+                               station::LumpLibrary library);
+
 /// Who or what holds the tool, behind HapticDevice, and what measures the force on it: the bench's
 /// twins, a person's mouse, a Falcon, a recorded hand; the station file and the operator decide.
 /// Their threads are its own. Throws UsageError / Error when something that the station names is

@@ -106,6 +106,9 @@ struct SessionOptions {
   bool guidance = false;                  ///< palpation: help that fades, in every other trial
   bool see_through = false;               ///< palpation: the lumps are shown; not scored
   int tools = 1;                          ///< palpation: 2: fingers, each on a device of its own
+  std::string surface;   ///< of what lies on the virtual bench; empty: the station's silicone
+  std::string map;       ///< what it is like from place to place: a calibration of kind object
+  bool show_map = true;  ///< palpation: it is drawn on the picture; not with `guidance`
   bool tracked_finger = false;  ///< palpation: the second is bare and tracked; its force estimated
   /// search: real, degraded, augmented, or all of them one after the other
   std::string mode = "real";

@@ -219,6 +219,33 @@ LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>
   return library;
 }
 
+std::vector<std::string> surfacesIn(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  needKind(file, "surfaces", 1);
+  std::vector<std::string> names;
+  for (const JsonFile& entry : file.entries("surfaces")) names.push_back(entry.text("name"));
+  return names;
+}
+
+LumpLibrary withSurface(LumpLibrary library, const std::filesystem::path& path,
+                        const std::string& name) {
+  const JsonFile file(path);
+  needKind(file, "surfaces", 1);
+  const std::filesystem::path folder = path.parent_path();
+  for (const JsonFile& entry : file.entries("surfaces")) {
+    if (entry.text("name") != name) continue;
+    const CalibrationFile softness =
+                              calibrationAt(entry, "material", CalibrationKind::material, folder),
+                          friction =
+                              calibrationAt(entry, "friction", CalibrationKind::friction, folder);
+    setSoftness(library, softness, (folder / entry.text("material")).string());
+    setFriction(library, friction, (folder / entry.text("friction")).string());
+    library.simulated = library.simulated || softness.simulated || friction.simulated;
+    library.of_surface = "\"" + name + "\" as it was identified";
+  }
+  return library;
+}
+
 haptics::TouchAugmentation touchOf(const LumpLibrary& library) {
   haptics::TouchAugmentation touch;
   touch.surface.contact.real = library.surface;
@@ -227,6 +254,7 @@ haptics::TouchAugmentation touchOf(const LumpLibrary& library) {
   touch.surface.wanted = library.friction;
   touch.texture = library.texture;
   touch.tip_radius = library.tip_radius;
+  if (library.map) touch.map = learntMap(*library.map, touch.surface.contact);
   for (std::size_t i = 0; i < library.kinds.size(); ++i) touch.kinds[i] = library.kinds[i].law;
   return touch;
 }

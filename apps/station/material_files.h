@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "anatomy/base/json_file.h"
 #include "apps/station/calibrations.h"
+#include "apps/station/object_map_file.h"
 #include "haptics/contact/needle_materials.h"
 #include "haptics/modulation/touch_augmentation.h"
 
@@ -42,6 +44,8 @@ struct LumpLibrary {
   /// By what the surface is known: "the library of lumps", "this station's calibration of
   /// 2026-11-02"
   std::string of_surface;
+  std::optional<MappedObject>
+      map;  ///< what it is like from place to place; none: the same all over
   std::vector<LumpKind> kinds;
 };
 
@@ -54,6 +58,12 @@ LumpLibrary readLumps(const std::filesystem::path& file);
 /// where it has them: the sample that lies there is touched, not the library's. Throws as
 /// `readLumps` for a law that cannot be; whether a calibration passed, the station's verdict says.
 LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations);
+
+/// The same with the surface of that name in a file of surfaces (assets/materials/surfaces.json),
+/// as it was identified there; unchanged where the file holds no such name. Throws as `readLumps`.
+LumpLibrary withSurface(LumpLibrary library, const std::filesystem::path& file,
+                        const std::string& name);
+std::vector<std::string> surfacesIn(const std::filesystem::path& file);  ///< their names
 
 /// A texture as `palpa calibrate texture` left it, without a bound. Throws Error for a calibration
 /// that failed, one of another kind, and figures that no texture has.

@@ -35,6 +35,26 @@ std::string lineOf(const char* pattern, Numbers... numbers) {
 
 }  // namespace
 
+scene::SurfaceMap shownMap(const station::MappedObject& object, const Pose& X_AP) {
+  constexpr double kUnsureSd = 0.05, kPerMm = 1e-3;
+  scene::SurfaceMap map;
+  const Eigen::Vector2d step = object.step();
+  map.X_AG = X_AP;
+  map.low_x = object.low.x();
+  map.low_y = object.low.y();
+  map.step_x = step.x();
+  map.step_y = step.y();
+  map.columns = object.columns;
+  map.rows = object.rows;
+  for (std::size_t i = 0; i < object.stiffness.size(); ++i) {
+    map.values.push_back(static_cast<float>(kPerMm * object.stiffness[i]));
+    map.unsure.push_back(object.stiffness_sd[i] > kUnsureSd);
+  }
+  map.title = lineOf("Stiffness %.0f mm deep", 1e3 * object.depth);
+  map.unit = "N/mm";
+  return map;
+}
+
 PalpationScene::PalpationScene(const PalpationSceneSetup& setup, runtime::Bus& bus,
                                PalpationChannels& channels)
     : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels), bus_(bus) {}
@@ -50,6 +70,7 @@ void PalpationScene::compose(scene::SceneState& state, const runtime::ToolState&
   state.tool = scene::Tool::probe;
   state.hud = words(tool, trouble);
   showFelt(state);
+  state.surface_map = setup_.map ? &*setup_.map : nullptr;
   const bool apart = !status_.lumps.empty();
   state.forces = shownForces(tool, X_AD().rotation(), state.X_AT, apart);
   if (!setup_.X_AD2) return;

@@ -17,15 +17,20 @@ namespace palpa::task_palpation {
 std::vector<scene::ForceArrow> shownForces(const runtime::ToolState& tool, const Mat3& R_AD,
                                            const Pose& X_AT, bool apart);
 
+/// A learnt map's stiffness as it is drawn; a place is unsure where the 95 % interval is wider than
+/// 10 % to either side.
+scene::SurfaceMap shownMap(const station::MappedObject& object, const Pose& X_AP);
+
 /// What a palpation is shown with.
 struct PalpationSceneSetup {
   trial::TrialScene::Stage stage;
   Pose X_AP = Pose::Identity();
   assess::SearchArea area;
-  double tip_radius = 0.008;  ///< m
-  std::string force_note;     ///< what deep is here; empty: as on a patient
-  std::optional<Pose> X_AD2;  ///< the second device's base, of two
-  bool estimated = false;     ///< what the second presses with is no sensor's
+  double tip_radius = 0.008;                  ///< m
+  std::string force_note;                     ///< what deep is here; empty: as on a patient
+  std::optional<Pose> X_AD2;                  ///< the second device's base, of two
+  bool estimated = false;                     ///< what the second presses with is no sensor's
+  std::optional<scene::SurfaceMap> map = {};  ///< of the phantom's stiffness
 };
 
 /// What is seen of a palpation: the area and how firmly it was felt, marks, lumps where they may be

@@ -25,9 +25,8 @@ SensorCheck::SensorCheck(const haptics::TickConfig& config)
     : X_PD_(unpack(config.X_DP).inverse()),
       top_(config.top),
       radius_(config.touch.tip_radius),
-      x0_(config.touch.surface.contact.x0),
-      least_N_(config.touch.surface.contact.least_contact),
-      law_(config.touch.surface.contact.real) {}
+      law_(config.touch.surface.contact),
+      map_(config.touch.map) {}
 
 void SensorCheck::reset() {
   air_s_ = reversed_s_ = deepest_ = ratio_ = 0;
@@ -36,9 +35,11 @@ void SensorCheck::reset() {
 }
 
 SensorCheck::Sensed SensorCheck::sensedIn(const haptics::FlightRecord& record) const {
-  const Vec3 f_P = X_PD_.linear() * unpack(record.sensed.f_D);
-  const TopFoot foot = nearestOn(top_, X_PD_ * unpack(record.sensed.p_DK));
-  return {foot.over - radius_, top_.flat() ? f_P : Vec3(turnToNormal(foot.n).transpose() * f_P)};
+  const Vec3 p_P = X_PD_ * unpack(record.sensed.p_DK),
+             f_P = X_PD_.linear() * unpack(record.sensed.f_D);
+  const TopFoot foot = nearestOn(top_, p_P);
+  return {foot.over - radius_, p_P,
+          top_.flat() ? f_P : Vec3(turnToNormal(foot.n).transpose() * f_P)};
 }
 
 double SensorCheck::inTheAir(const haptics::FlightRecord& record) const {
@@ -51,7 +52,8 @@ std::string SensorCheck::pressed(const Sensed& now) {
   const double depth = -now.height;
   if (depth > std::max(deepest_, kPressed)) {
     deepest_ = depth;
-    ratio_ = now.f_P.z() / haptics::forceOf(law_, depth - x0_, 0);
+    const haptics::HuntCrossley here = haptics::lawAt(law_, map_, now.p_P).real;
+    ratio_ = now.f_P.z() / haptics::forceOf(here, depth - law_.x0, 0);
   }
   if (depth > 0 || deepest_ == 0) return "";
   ratios_.push_back(ratio_);
@@ -71,13 +73,13 @@ std::string SensorCheck::add(const haptics::FlightRecord& record) {
   last_ns_ = record.t_ns;
   if (record.sensed.state != haptics::SensorState::valid || dt <= 0 || dt > kGap_s) return "";
   const Sensed now = sensedIn(record);
-  air_s_ = now.height > kInAir && now.f_P.norm() > least_N_ ? air_s_ + dt : 0;
+  air_s_ = now.height > kInAir && now.f_P.norm() > law_.least_contact ? air_s_ + dt : 0;
   if (air_s_ > kAir_s)
     return with(
         "the force sensor shows %.1f N though nothing is touched: it has drifted, or its scale is "
         "wrong. Zero it again",
         now.f_P.norm());
-  reversed_s_ = now.height < kBelow && now.f_P.z() < -least_N_ ? reversed_s_ + dt : 0;
+  reversed_s_ = now.height < kBelow && now.f_P.z() < -law_.least_contact ? reversed_s_ + dt : 0;
   if (reversed_s_ > kReversed_s)
     return "the force sensor says that the phantom pulls where it is pressed: its sign is wrong. "
            "Look at the sensor's settings";

@@ -16,8 +16,8 @@ namespace palpa::task_palpation {
 ///     reversed   0.1 s long, more than that toward the phantom, the tip 2 mm or more below the
 ///                top
 ///     scale      the last five presses of 3 mm or more gave less than half or more than twice
-///                H(depth), in the median: registration errs by a millimetre, silicone ages, but
-///                not that much
+///                H(depth) of their places, in the median: registration errs by a millimetre,
+///                silicone ages, but not that much
 class SensorCheck {
  public:
   explicit SensorCheck(const haptics::TickConfig& config);
@@ -29,7 +29,8 @@ class SensorCheck {
 
  private:
   struct Sensed {
-    double height = 0;        ///< m, of the tip over the top, along its normal
+    double height = 0;  ///< m, of the tip over the top, along its normal
+    Vec3 p_P = Vec3::Zero();
     Vec3 f_P = Vec3::Zero();  ///< turned so that this normal is z
   };
   Sensed sensedIn(const haptics::FlightRecord& record) const;
@@ -37,8 +38,9 @@ class SensorCheck {
 
   Pose X_PD_;
   TopShape top_;
-  double radius_, x0_, least_N_;
-  haptics::HuntCrossley law_;
+  double radius_;
+  haptics::StiffnessModulation law_;
+  haptics::LearntMap map_;
   double air_s_ = 0, reversed_s_ = 0;
   std::int64_t last_ns_ = -1;
   double deepest_ = 0, ratio_ = 0;  ///< of this press

@@ -39,6 +39,7 @@ void keepShown(const Presentation& shown, scene::SceneState* state) {
   if (shown.guidance) return;
   state->guide.reset();
   state->lead_A.reset();
+  state->surface_map = nullptr;
   if (state->coverage)
     std::fill(state->coverage->levels.begin(), state->coverage->levels.end(), std::uint8_t{0});
 }

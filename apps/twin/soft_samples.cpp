@@ -39,15 +39,16 @@ auto namedIn(const Phantoms& phantoms, const std::string& name) {
                       [&](const auto& phantom) { return phantom.name == name; });
 }
 
-[[noreturn]] void refuseName(const std::string& name, const std::vector<Phantom>& samples,
-                             const std::vector<LayeredPhantom>& objects) {
-  std::vector<std::string> known;
-  for (const Phantom& p : samples) known.push_back(p.name);
-  for (const LayeredPhantom& p : objects) known.push_back(p.name);
+[[noreturn]] void refuseName(const std::string& name, const std::vector<std::string>& known) {
   std::string all;
   for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
   throw UsageError("is not one of the simulated samples" + didYouMean(name, known),
                    "\"" + name + "\"", "Known are " + all);
+}
+
+template <class Named>
+void addNames(const std::vector<Named>& named, std::vector<std::string>* all) {
+  for (const Named& one : named) all->push_back(one.name);
 }
 
 }  // namespace
@@ -59,27 +60,41 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
                      "Say where it lies: sample/X_WP, sample/tip_radius_mm");
   X_WP_ = trueSample(station, seed);
   radius_ = station.sample->tip_radius;
-  const std::vector<Phantom> samples = samplesOf(station);
-  const auto one = name.empty() ? samples.begin() : namedIn(samples, name);
-  double solved_for = 0;  // m, the tool's radius
-  if (one != samples.end()) {
-    solved_for = one->table.tool_radius;
-    has_lump_ = one->block.lump.has_value();
-    if (top.flat())
-      phantom_.emplace<PhantomFingersTwin>(one->table, one->both, SiliconeLaw{});
-    else
-      phantom_.emplace<CurvedPhantomTwin>(one->table, SiliconeLaw{}, top);
-  } else {
-    const std::vector<LayeredPhantom> objects = objectsOf(station);
-    const auto object = namedIn(objects, name);
-    if (object == objects.end()) refuseName(name, samples, objects);
-    solved_for = object->table.tool_radius;
-    phantom_.emplace<LayeredPhantomTwin>(*object, SiliconeLaw{});
-  }
+  if (std::abs(putDown(station, name, top) - radius_) > 1e-6)
+    station.file.refuse("sample/tip_radius_mm", "is not that of the simulated samples");
   if (!top.flat() && (has_lump_ || !std::holds_alternative<CurvedPhantomTwin>(phantom_)))
     throw UsageError("is cast in flat blocks only", "\"" + name + "\"", "Choose the first sample");
-  if (std::abs(solved_for - radius_) > 1e-6)
-    station.file.refuse("sample/tip_radius_mm", "is not that of the simulated samples");
+}
+
+/// Returns the radius of the tool that it was solved for, m.
+double SampleTwin::putDown(const station::Station& station, const std::string& name,
+                           const TopShape& top) {
+  const std::vector<Phantom> samples = samplesOf(station);
+  const auto fingers = [&](const Phantom& sample, const SiliconeLaw& law) {
+    has_lump_ = sample.block.lump.has_value();
+    if (top.flat())
+      phantom_.emplace<PhantomFingersTwin>(sample.table, sample.both, law);
+    else
+      phantom_.emplace<CurvedPhantomTwin>(sample.table, law, top);
+    return sample.table.tool_radius;
+  };
+  if (name.empty()) return fingers(samples.front(), SiliconeLaw{});
+  if (const auto one = namedIn(samples, name); one != samples.end())
+    return fingers(*one, SiliconeLaw{});
+  const std::vector<LayeredPhantom> objects = objectsOf(station);
+  if (const auto one = namedIn(objects, name); one != objects.end()) {
+    phantom_.emplace<LayeredPhantomTwin>(*one, SiliconeLaw{});
+    return one->table.tool_radius;
+  }
+  const std::vector<SoftSurface> surfaces =
+      readSoftSurfaces(station::assetFile("materials/surfaces.json"));
+  if (const auto one = namedIn(surfaces, name); one != surfaces.end())
+    return fingers(one->madeOf(samples.front()), one->law);
+  std::vector<std::string> known;
+  addNames(samples, &known);
+  addNames(objects, &known);
+  addNames(surfaces, &known);
+  refuseName(name, known);
 }
 
 Vec3 SampleTwin::middleIn(const Pose& X_WT) const {

@@ -20,18 +20,21 @@ struct SampleTouch {
 class SampleTwin {
  public:
   /// One of the station's simulated samples or objects ("twin/samples", "twin/objects": files of
-  /// assets/phantoms without their ending); "" is the first sample. Throws UsageError for a station
-  /// without samples, or a name that is none of theirs. `top`: as it was cast; where that is
-  /// curved, a sample without a lump is felt with one tool.
+  /// assets/phantoms without their ending), or the first sample made of another silicone
+  /// (assets/materials/surfaces.json); "" is the first sample. Throws UsageError for a station
+  /// without samples, or a name that is none of these. `top`: as it was cast; where that is curved,
+  /// a sample without a lump is felt with one tool.
   SampleTwin(const station::Station& station, const std::string& name, std::uint64_t seed,
              const TopShape& top = {});
 
   /// The tool (z along it, T on its end) is there after another `dt`.
   SampleTouch step(const Pose& X_WT, double dt);
+  bool forTwo() const { return std::holds_alternative<PhantomFingersTwin>(phantom_); }
   /// Of two tools on a sample without a lump. Throws Error for an object and for a curved top.
   std::array<SampleTouch, 2> step(const std::array<Pose, 2>& X_WT, double dt);
 
  private:
+  double putDown(const station::Station& station, const std::string& name, const TopShape& top);
   Vec3 middleIn(const Pose& X_WT) const;  // of the tip, in P
   Vec3 lowestIn(const Pose& X_WT) const;  // in P
   SampleTouch told(const PhantomTouch& touch, const Vec3& lowest_P) const;

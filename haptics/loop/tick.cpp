@@ -171,10 +171,12 @@ SensedForce estimatedForce(const PairConfig& config, PairState& state, const Dev
              X_DE = makePose(unpack(reading.q_DE).normalized().toRotationMatrix(),
                              unpack(reading.p_DE));
   const Vec3 p_DM = X_DE * (unpack(tool.X_ET) * Vec3(0, 0, -tool.touch.tip_radius));
+  const Vec3 p_PM = X_DP.inverse() * p_DM;
+  const TouchAugmentation& law = config.tools[0].touch;
   const EstimatedReaction told = estimateReaction(
-      config.tools[0].touch.surface.contact,
+      {lawAt(law.surface.contact, law.map, touch.p_M), lawAt(law.surface.contact, law.map, p_PM)},
       {config.opposed != 0, static_cast<double>(config.thickness)}, tool.touch.tip_radius, touch,
-      X_DP.inverse() * p_DM, first.input.dt, &state.estimate);
+      p_PM, first.input.dt, &state.estimate);
   sensed.state = SensorState::estimated;
   sensed.f_D = pack(Vec3(X_DP.linear() * told.f_r));
   sensed.p_DK = pack(Vec3(X_DP * told.p_M));

@@ -27,10 +27,12 @@ void learnLevel(const StiffnessModulation& law, double lowest, double x,
 
 }  // namespace
 
-EstimatedReaction estimateReaction(const StiffnessModulation& law, const SecondFace& face,
-                                   double tip_radius, const ToolTouch& first, const Vec3& p_M,
-                                   double dt, EstimateState* state) noexcept {
-  const bool usable = p_M.allFinite() && dt > 0 && law.real.k > 0 &&
+EstimatedReaction estimateReaction(const std::array<StiffnessModulation, 2>& laws,
+                                   const SecondFace& face, double tip_radius,
+                                   const ToolTouch& first, const Vec3& p_M, double dt,
+                                   EstimateState* state) noexcept {
+  const StiffnessModulation &law = laws[0], &second = laws[1];
+  const bool usable = p_M.allFinite() && dt > 0 && law.real.k > 0 && second.real.k > 0 &&
                       (!first.present || (first.p_M.allFinite() && first.f_r.allFinite()));
   if (!usable) {
     *state = {};
@@ -53,13 +55,13 @@ EstimatedReaction estimateReaction(const StiffnessModulation& law, const SecondF
     told.x = state->level - (told.p_M.z() - tip_radius);
   }
   told.x = std::max(told.x, 0.0);
-  const double f_n = forceOf(law.real, told.x - law.x0, 0);
-  if (!(f_n >= law.least_contact)) {
+  const double f_n = forceOf(second.real, told.x - second.x0, 0);
+  if (!(f_n >= second.least_contact)) {
     state->friction = {};
     return told;
   }
   const Vec3 n = face.opposed ? Vec3(-Vec3::UnitZ()) : Vec3(Vec3::UnitZ());
-  told.f_r = f_n * n - dragOf(law.friction, moved, n, f_n, dt, &state->friction);
+  told.f_r = f_n * n - dragOf(second.friction, moved, n, f_n, dt, &state->friction);
   return told;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <type_traits>
 
 #include "haptics/modulation/touch_augmentation.h"
@@ -47,9 +48,11 @@ struct EstimatedReaction {
 ///     x_2 = thickness - (p_M1.z - r) + (p_M2.z + r) - x_1,   without the first's touch from rest
 ///     f_r2 = H(x_2 - x0, 0) n_2 - drag                    n_2 = z, opposite -z; Dahl's friction
 /// Rates are left out: a tracker's differences are noise. p_M2 is smoothed with 15 ms. Zero below
-/// the law's least contact and for invalid figures. No allocation, no exception.
-EstimatedReaction estimateReaction(const StiffnessModulation& law, const SecondFace& face,
-                                   double tip_radius, const ToolTouch& first, const Vec3& p_M,
-                                   double dt, EstimateState* state) noexcept;
+/// the law's least contact and for invalid figures. `laws`: the object's under the first tool and
+/// under the second. No allocation, no exception.
+EstimatedReaction estimateReaction(const std::array<StiffnessModulation, 2>& laws,
+                                   const SecondFace& face, double tip_radius,
+                                   const ToolTouch& first, const Vec3& p_M, double dt,
+                                   EstimateState* state) noexcept;
 
 }  // namespace palpa::haptics

@@ -99,7 +99,7 @@ bool isTaken(const PlacedLump& lump) noexcept {
   return lump.kind >= 1 && lump.kind <= kMostLumpKinds && lump.taken > 0 && lump.taken <= 1;
 }
 
-TakenLumps takeLumps(const StiffnessModulation& surface,
+TakenLumps takeLumps(const std::array<StiffnessModulation, 2>& surfaces,
                      const std::array<VirtualInclusion, kMostLumpKinds>& kinds,
                      const PlacedLumps& lumps, double tip_radius,
                      const std::array<TouchAboveLumps, 2>& tools, double dt,
@@ -112,11 +112,11 @@ TakenLumps takeLumps(const StiffnessModulation& surface,
   };
   std::array<double, 2> whole{}, H{};
   for (std::size_t t = 0; t < 2; ++t) {
-    if (!usable(surface, tools[t], dt)) {
+    if (!usable(surfaces[t], tools[t], dt)) {
       state->friction[t] = {};
       continue;
     }
-    whole[t] = surface.x0 + depthOf(surface.real, tools[t].f_r.z(), rateOf(tools[t], dt));
+    whole[t] = surfaces[t].x0 + depthOf(surfaces[t].real, tools[t].f_r.z(), rateOf(tools[t], dt));
     now.contacts[t] = contactAt(t, std::max(whole[t], 0.0));
   }
   const double share = largestShare(lumps);
@@ -129,9 +129,9 @@ TakenLumps takeLumps(const StiffnessModulation& surface,
         now.contacts[t] = contactAt(t, x);
         const double lump = under.on(t, now.contacts);
         H[t] = std::clamp(sensed - lump, 0.0, sensed);
-        return forceOf(surface.real, x - surface.x0, rateOf(tools[t], dt)) + lump - sensed;
+        return forceOf(surfaces[t].real, x - surfaces[t].x0, rateOf(tools[t], dt)) + lump - sensed;
       });
-    now.f_d[t] = share * takenOf(surface, tools[t], H[t], dt, &state->friction[t]);
+    now.f_d[t] = share * takenOf(surfaces[t], tools[t], H[t], dt, &state->friction[t]);
   }
   now.iterations = under.iterations();
   for (std::size_t i = 0; i < lumps.size(); ++i) {

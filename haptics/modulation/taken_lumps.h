@@ -52,7 +52,8 @@ bool isTaken(const PlacedLump& lump) noexcept;
 /// taken for a quarter too strong where it is felt from 12 mm beside it [chosen on the eight
 /// mock-ups of assets/phantoms; of 0, 0.7, 1 and 1.5]. s: the largest share of the lumps. Two tools
 /// one after the other. Invalid figures take nothing. No allocation, no exception.
-TakenLumps takeLumps(const StiffnessModulation& surface,
+/// `surfaces`: the object's law under each tool.
+TakenLumps takeLumps(const std::array<StiffnessModulation, 2>& surfaces,
                      const std::array<VirtualInclusion, kMostLumpKinds>& kinds,
                      const PlacedLumps& lumps, double tip_radius,
                      const std::array<TouchAboveLumps, 2>& tools, double dt,

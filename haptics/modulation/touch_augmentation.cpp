@@ -19,22 +19,24 @@ Modulated feel(const TouchAugmentation& law, const ToolTouch& tool, double dt, s
   const Vec3 dp = state->held[t] ? Vec3(tool.p_M - unpack(state->p_before[t])) : Vec3(Vec3::Zero());
   state->p_before[t] = pack(tool.p_M);
   state->held[t] = 1;
+  const StiffnessModulation here = lawAt(law.surface.contact, law.map, tool.p_M);
   if (law.other_friction) {
     const double factor = std::isfinite(tool.friction) && tool.friction >= 0 ? tool.friction : 1;
-    FrictionModulation surface = law.surface;
+    FrictionModulation surface{here, law.surface.wanted};
     surface.wanted.mu *= factor;
     surface.wanted.B *= factor;
     return modulateFriction(surface, tool.f_r, dp, dt, &state->surface[t]);
   }
-  return modulateStiffness(law.surface.contact, tool.f_r, dp, dt, &state->surface[t].contact);
+  return modulateStiffness(here, tool.f_r, dp, dt, &state->surface[t].contact);
 }
 
 /// In place of another stiffness and friction; what other lumps are put into is the object alone.
 void takeAway(const TouchAugmentation& law, const PlacedLumps& lumps,
               const std::array<TouchAboveLumps, 2>& tools, double dt, TakenState* state,
               std::array<InclusionContact, 2>* contacts, AugmentedTouch* now) noexcept {
-  const TakenLumps taken =
-      takeLumps(law.surface.contact, law.kinds, lumps, law.tip_radius, tools, dt, state);
+  const TakenLumps taken = takeLumps({lawAt(law.surface.contact, law.map, tools[0].p_M),
+                                      lawAt(law.surface.contact, law.map, tools[1].p_M)},
+                                     law.kinds, lumps, law.tip_radius, tools, dt, state);
   now->d = taken.d;
   now->iterations += taken.iterations;
   now->f_d = now->f_taken = taken.f_d;

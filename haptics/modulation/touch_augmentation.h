@@ -6,6 +6,7 @@
 
 #include "haptics/flight_record.h"
 #include "haptics/materials/texture.h"
+#include "haptics/modulation/learnt_map.h"
 #include "haptics/modulation/modulation.h"
 #include "haptics/modulation/taken_lumps.h"
 #include "haptics/modulation/virtual_inclusion.h"
@@ -22,6 +23,7 @@ struct TouchAugmentation {
   std::uint8_t other_friction = 0;  ///< 0: friction stays the real one, and nothing is done for it
   std::uint8_t reserved[7]{};
   TextureLaw texture;  ///< of the whole surface; no speeds: none
+  LearntMap map;       ///< how the object differs from `surface.contact` from place to place
 };
 static_assert(std::is_trivially_copyable_v<TouchAugmentation>);
 
@@ -63,6 +65,8 @@ Vec3 outwardOver(const PlacedLump& lump) noexcept;
 ///     f_d* = (k~ x* - f_n*) u_n*  [+ f_targ* - f_real*]
 ///            +  w* u_n*  +  sum over lumps (f_T* + f_t* (f_T* . u_n*) / f_n*)
 /// w: of the texture (`textureForce`), by the real normal force and what slides.
+/// The real object is that of `lawAt` under each tool: where there is a map, k, b and mu are those
+/// of its place.
 /// f_targ: of mu and B of the wanted friction, times the tool's factor (0 or more; else 1).
 /// Where lumps are real and taken off, `takeLumps` has the place of the first line: nothing else is
 /// changed of the surface then. Each lump feels both tools, and no other lump. Where there is no

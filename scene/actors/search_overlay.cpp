@@ -1,23 +1,13 @@
 #include "scene/actors/search_overlay.h"
 
-#include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkTexture.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
-
-#include "scene/renderer_setup.h"
+#include <vector>
 
 namespace palpa::scene {
 namespace {
@@ -98,48 +88,14 @@ std::vector<Vec3> edgeOf(const CoverageGrid& grid) {
 }  // namespace
 
 CoverageCarpet::CoverageCarpet(vtkRenderer& renderer, double outline_px)
-    : outline_(((void)renderer.AddActor(carpet_), renderer), colour::kText, outline_px) {
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(picture_);
-  texture->InterpolateOn();
-  texture->MipmapOff();
-  texture->RepeatOff();
-  texture->EdgeClampOn();
-  const vtkSmartPointer<vtkPolyDataMapper> mapper = makePassMapper();
-  mapper->SetInputData(sheet_);
-  setWrites(*mapper, true, false);  // what lies under it is drawn later, and over it
-  carpet_->SetMapper(mapper);
-  carpet_->SetTexture(texture);
-  carpet_->GetProperty()->LightingOff();
-  carpet_->ForceOpaqueOn();  // in the order of actors, and blended (see Glass)
-  carpet_->VisibilityOff();
-}
+    : carpet_(renderer), outline_(renderer, colour::kText, outline_px) {}
 
 CoverageCarpet::~CoverageCarpet() = default;
 
 void CoverageCarpet::lay(const CoverageGrid& grid) {
   const bool flat = grid.top.flat();
-  const int across = flat ? 1 : kPieces * grid.columns, along = flat ? 1 : kPieces * grid.rows;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkFloatArray> places;
-  places->SetNumberOfComponents(2);
-  places->SetName("TextureCoordinates");
-  vtkNew<vtkCellArray> cells;
-  for (int j = 0; j <= along; ++j) {
-    for (int i = 0; i <= across; ++i) {
-      const double u = static_cast<double>(i) / across, v = static_cast<double>(j) / along;
-      points->InsertNextPoint(overGrid(grid, 2 * u - 1, 2 * v - 1).data());
-      places->InsertNextTuple2(u, v);
-      if (i == 0 || j == 0) continue;
-      const vtkIdType last = j * (across + 1) + i, below = last - across - 1;
-      for (const auto& triangle : {std::array<vtkIdType, 3>{below - 1, below, last},
-                                   std::array<vtkIdType, 3>{below - 1, last, last - 1}})
-        cells->InsertNextCell(3, triangle.data());
-    }
-  }
-  sheet_->SetPoints(points);
-  sheet_->SetPolys(cells);
-  sheet_->GetPointData()->SetTCoords(places);
+  carpet_.lay(flat ? 1 : kPieces * grid.columns, flat ? 1 : kPieces * grid.rows,
+              [&](double u, double v) { return overGrid(grid, 2 * u - 1, 2 * v - 1); });
   outline_.show({edgeOf(grid)});
 }
 
@@ -147,9 +103,9 @@ void CoverageCarpet::lay(const CoverageGrid& grid) {
 void CoverageCarpet::dye(const CoverageGrid& grid) {
   const int side = std::clamp(kMost_texels / std::max(grid.columns, grid.rows), 1, kCell_texels);
   const int width = side * grid.columns, height = side * grid.rows;
-  picture_->SetDimensions(width, height, 1);
-  picture_->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* texel = static_cast<std::uint8_t*>(picture_->GetScalarPointer());
+  std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) *
+                                 static_cast<std::size_t>(height));
+  std::uint8_t* texel = rgba.data();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x, texel += 4) {
       const Rgba ink = feltColour(
@@ -160,7 +116,7 @@ void CoverageCarpet::dye(const CoverageGrid& grid) {
       texel[3] = toByte(rim ? kSeam * ink[3] : ink[3]);
     }
   }
-  picture_->Modified();
+  carpet_.dye(width, height, rgba);
 }
 
 void CoverageCarpet::update(const std::optional<CoverageGrid>& grid, bool visible) {
@@ -170,11 +126,9 @@ void CoverageCarpet::update(const std::optional<CoverageGrid>& grid, bool visibl
     dye(*grid);
   if (shown && !(drawn_ && sameSheet(*drawn_, *grid) && drawn_->levels == grid->levels))
     drawn_ = grid;
-  carpet_->SetVisibility(shown);
+  carpet_.setVisible(shown);
   outline_.setVisible(shown);
 }
-
-bool CoverageCarpet::visible() const { return carpet_->GetVisibility() != 0; }
 
 namespace {
 
@@ -200,7 +154,8 @@ std::vector<std::vector<Vec3>> leadShape(const Pose& X_A) {
 }  // namespace
 
 SearchOverlay::SearchOverlay(vtkRenderer& on_skin, vtkRenderer& above, double line_px)
-    : carpet_(on_skin, 0.6 * line_px),
+    : map_(on_skin),
+      carpet_(on_skin, 0.6 * line_px),
       lead_(on_skin, colour::kText, line_px),
       balls_(on_skin, above, 0.9 * line_px),
       pins_(above) {}
@@ -229,7 +184,10 @@ void SearchOverlay::showLead(const SceneState& state, bool visible, const Sight&
 void SearchOverlay::update(const SceneState& state, bool visible, const Sight& sight,
                            double pin_px) {
   balls_above_ = state.skin == SkinStyle::solid;
-  carpet_.update(state.coverage, visible);
+  map_.update(state.surface_map, visible);
+  std::optional<CoverageGrid> felt = state.coverage;
+  if (felt && map_.visible()) std::fill(felt->levels.begin(), felt->levels.end(), std::uint8_t{0});
+  carpet_.update(felt, visible);
   balls_.update(visible ? state.lumps : std::vector<ShownLump>(), sight, balls_above_);
   pins_.update(visible ? state.marks_A : std::vector<Vec3>(), sight, pin_px);
   showLead(state, visible, sight);

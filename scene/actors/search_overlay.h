@@ -1,16 +1,12 @@
 #pragma once
 
-#include <vtkNew.h>
-
 #include <optional>
 
 #include "scene/actors/lines.h"
 #include "scene/actors/search_marks.h"
+#include "scene/actors/surface_map.h"
 #include "scene/scene_state.h"
 
-class vtkActor;
-class vtkImageData;
-class vtkPolyData;
 class vtkRenderer;
 
 namespace palpa::scene {
@@ -26,15 +22,13 @@ class CoverageCarpet {
   /// Lays the carpet anew where the grid has changed, dyes it anew where levels have; else costs a
   /// comparison. A grid without as many levels as cells is not shown.
   void update(const std::optional<CoverageGrid>& grid, bool visible);
-  bool visible() const;
+  bool visible() const { return outline_.visible(); }
 
  private:
   void lay(const CoverageGrid& grid);
   void dye(const CoverageGrid& grid);
 
-  vtkNew<vtkPolyData> sheet_;
-  vtkNew<vtkImageData> picture_;
-  vtkNew<vtkActor> carpet_;
+  PictureSheet carpet_;
   EdgedLines outline_;
   std::optional<CoverageGrid> drawn_;
 };
@@ -55,13 +49,15 @@ class SearchOverlay {
 
   void update(const SceneState& state, bool visible, const Sight& sight, double pin_px);
   bool anyOnSkin() const {
-    return carpet_.visible() || lead_.visible() || (balls_.any() && !balls_above_);
+    return carpet_.visible() || map_.visible() || lead_.visible() ||
+           (balls_.any() && !balls_above_);
   }
   bool anyAbove() const { return pins_.any() || (balls_.any() && balls_above_); }
 
  private:
   void showLead(const SceneState& state, bool visible, const Sight& sight);
 
+  MapCarpet map_;
   CoverageCarpet carpet_;
   EdgedLines lead_;
   LumpBalls balls_;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scene/actors/force_arrows.h"
+#include "scene/actors/surface_map.h"
 
 namespace palpa::scene {
 namespace {
@@ -92,6 +93,7 @@ void HudPainter::build() {
   buildPhase();
   buildTimeline();
   buildLegend();
+  buildScale();
   buildReadings();
   buildNotice();
   for (std::size_t i = used_; i < labels_.size(); ++i) labels_[i]->hide();
@@ -198,6 +200,39 @@ void HudPainter::buildLegend() {
     x += textWidth(name(kind), bright) + 2 * pad;
   }
   write(scale, dim, x, y, Align::left);
+  above_ = frame.top() + margin_;
+}
+
+/// "Stiffness  0.12 [colours] 0.31 N/mm  striped: not sure"
+void HudPainter::buildScale() {
+  if (!content_->text.scale) return;
+  const ColourScale& scale = *content_->text.scale;
+  constexpr int kParts = 48;
+  const TextStyle dim = style(0.85, false, colour::kTextDim),
+                  bright = style(0.85, false, colour::kText);
+  const int pad = text_ / 2, part = std::max(2, text_ / 6), bar = kParts * part;
+  const std::string unsure = scale.any_unsure ? "striped: not sure" : "";
+  const int width = textWidth(scale.title, dim) + textWidth(scale.low, bright) + bar +
+                    textWidth(scale.high, bright) + 5 * pad +
+                    (unsure.empty() ? 0 : textWidth(unsure, dim) + 2 * pad);
+  const int height = lineHeight(bright) + pad;
+  const Rect frame{content_->panel.x + margin_, above_, width, height};
+  plates_.add(frame, colour::kPlate, pad / 2);
+  int x = frame.x + pad;
+  const int y = frame.y + height / 2;
+  const auto write_on = [&](const std::string& text, const TextStyle& look) {
+    write(text, look, x, y, Align::left);
+    x += textWidth(text, look) + pad;
+  };
+  write_on(scale.title, dim);
+  write_on(scale.low, bright);
+  for (int i = 0; i < kParts; ++i)
+    plates_.add({x + i * part, frame.y + pad / 2, part, height - pad},
+                opaque(scaleColour((i + 0.5) / kParts)), 0);
+  x += bar + pad;
+  write_on(scale.high, bright);
+  x += pad;
+  if (!unsure.empty()) write_on(unsure, dim);
   above_ = frame.top() + margin_;
 }
 

@@ -41,6 +41,7 @@ class HudPainter {
   void buildReadings();
   void buildMark();
   void buildLegend();
+  void buildScale();
   void buildNotice();
   void buildTimeline();
   std::vector<Row> readings() const;

@@ -14,6 +14,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "scene/actors/camera_picture.h"
+#include "scene/actors/surface_map.h"
 #include "scene/overlay/hud.h"
 #include "scene/overlay/label.h"
 #include "scene/renderer_setup.h"
@@ -142,10 +143,12 @@ void SceneView::Impl::show(const SceneState& state) {
 void SceneView::Impl::writeWords(const SceneState& state) {
   const std::vector<ForceArrow> forces =
       ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
-  if (!other_hud) return hud.update(state.hud, forces, panels.ar, size[1]);
+  Hud text = state.hud;
+  if (ar.showsPatient() && state.surface_map) text.scale = scaleOf(*state.surface_map);
+  if (!other_hud) return hud.update(text, forces, panels.ar, size[1]);
   const std::array<Rect, 2> where = wordPanels(ar.eyes(), ar.panelsOfEyes());
-  hud.update(state.hud, forces, where[0], 2 * where[0].height);
-  other_hud->update(state.hud, forces, where[1], 2 * where[1].height);
+  hud.update(text, forces, where[0], 2 * where[0].height);
+  other_hud->update(text, forces, where[1], 2 * where[1].height);
 }
 
 /// Both eyes one after the other, and then their one picture over the whole window.

@@ -19,6 +19,8 @@ TEST(ObjectMap, LearntInThreeMinutesIsTrueAndKnowsItsError) {
       const ObjectFigures figures = objectFigures(name, static_cast<std::uint64_t>(seed));
       EXPECT_GE(figures.within_10, 0.9) << name << ", seed " << seed;
       EXPECT_LE(figures.seconds, 185) << "three minutes, and the touch that was on";
+      EXPECT_LE(figures.rendered_off, 0.12) << name << ", seed " << seed;
+      EXPECT_LT(figures.rendered_off, 0.6 * figures.rendered_off_unmapped) << name;
       covered += figures.covered / seeds / static_cast<double>(objects.size());
     }
   }

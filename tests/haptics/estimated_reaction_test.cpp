@@ -26,7 +26,8 @@ EstimatedReaction heldStill(const SecondFace& face, const ToolTouch& first, cons
                             EstimateState* state) {
   EstimatedReaction told;
   for (int i = 0; i < 300; ++i)
-    told = estimateReaction(kSoftFace, face, kFingerTip, first, p_M, kFingerStep, state);
+    told =
+        estimateReaction({kSoftFace, kSoftFace}, face, kFingerTip, first, p_M, kFingerStep, state);
   return told;
 }
 
@@ -61,13 +62,14 @@ TEST(EstimatedReaction, SlidingRubsAgainstTheMotionAndInTheAirThereIsNothing) {
   EstimatedReaction told;
   for (int i = 0; i < 300; ++i) {
     p_M.x() += 5e-5;
-    told = estimateReaction(kSoftFace, {}, kFingerTip, {}, p_M, kFingerStep, &state);
+    told = estimateReaction({kSoftFace, kSoftFace}, {}, kFingerTip, {}, p_M, kFingerStep, &state);
   }
   EXPECT_NEAR(told.f_r.x(), -0.35 * told.f_r.z() - 0.2 * 0.05, 1e-3);
   EXPECT_EQ(heldStill({}, {}, {0, 0, kFingerTip + 1e-3}, &state).f_r, Vec3(Vec3::Zero()));
   p_M.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(estimateReaction(kSoftFace, {}, kFingerTip, {}, p_M, kFingerStep, &state).f_r,
-            Vec3(Vec3::Zero()));
+  EXPECT_EQ(
+      estimateReaction({kSoftFace, kSoftFace}, {}, kFingerTip, {}, p_M, kFingerStep, &state).f_r,
+      Vec3(Vec3::Zero()));
   EXPECT_EQ(state.held, 0u);
 }
 

@@ -110,8 +110,8 @@ TEST(TakenLumps, WhatStaysRisesWithWhatIsSensed) {
       std::array<TouchAboveLumps, 2> tools;
       tools[0] = {true, LumpyBlock::at(0.002, 0.004), Vec3::Zero(), Vec3(0.05, 0, f)};
       state = {};  // at rest there
-      const TakenLumps now = takeLumps(block.law.surface.contact, block.law.kinds, block.lumps,
-                                       kTip, tools, 1, &state);
+      const TakenLumps now = takeLumps({block.law.surface.contact, block.law.surface.contact},
+                                       block.law.kinds, block.lumps, kTip, tools, 1, &state);
       const double felt = f + now.f_d[0].z();
       if (f < block.law.surface.contact.least_contact) continue;
       EXPECT_GE(felt, 0) << strength;

@@ -218,6 +218,18 @@ std::vector<Kind> materialKinds() {
            .stricter = {"/surface.*", "/friction.*", "/kinds/./identified.*"},
            .forgiving = {},
            .elsewhere = {}},
+          {.name = "surfaces",
+           .samples = {{"materials/surfaces.json", json::object()}},
+           .read =
+               [](const fs::path& file) {
+                 twin::readSoftSurfaces(file);
+                 for (const std::string& name : station::surfacesIn(file))
+                   station::withSurface({}, file, name);
+               },
+           // files that must exist
+           .stricter = {"/surfaces/./(material|friction).*"},
+           .forgiving = {},
+           .elsewhere = {}},
           {.name = "calibration",
            .samples = {{"materials/lumps/large.json", json::object()},
                        {"materials/lumps/material.json",

@@ -135,6 +135,34 @@ void solvePhantoms(const std::filesystem::path& name, const std::filesystem::pat
   whole.finish();
 }
 
+Phantom SoftSurface::madeOf(Phantom plain) const {
+  const double times = shear / plain.block.shear;
+  plain.block.shear = shear;
+  for (PhantomCell& cell : plain.table.cells) {
+    cell.f_out *= times;
+    cell.f_up *= times;
+  }
+  for (PairCell& cell : plain.both.cells)
+    for (auto& f : cell.f) f *= times;
+  return plain;
+}
+
+std::vector<SoftSurface> readSoftSurfaces(const std::filesystem::path& name) {
+  const JsonFile file(name);
+  needKind(file, "surfaces", 1);
+  std::vector<SoftSurface> all;
+  for (const JsonFile& one : file.entries("surfaces")) {
+    SoftSurface surface;
+    surface.name = one.text("name");
+    surface.shear = 1e3 * one.number("simulated/shear_kPa", 0.2, 40);
+    surface.law.mu = one.number("simulated/friction", 0.02, 2);
+    surface.law.sigma = one.number("simulated/before_sliding_N_per_m", 100, 10'000);
+    surface.law.B = one.number("simulated/viscous_Ns_per_m", 0, 5);
+    all.push_back(std::move(surface));
+  }
+  return all;
+}
+
 void needMadeOf(const JsonFile& tables, const std::filesystem::path& name) {
   if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
     tables.refuse("made_of", "is not " + name.string() + " (solve it again: palpa phantom solve)");

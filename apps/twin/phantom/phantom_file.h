@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "anatomy/base/json_file.h"
-#include "apps/twin/phantom/phantom_table.h"
+#include "apps/twin/phantom/phantom_twin.h"
 
 namespace palpa::twin {
 
@@ -32,6 +32,19 @@ PhantomFile readPhantoms(const std::filesystem::path& file);
 /// Takes minutes for each. Throws Error.
 void solvePhantoms(const std::filesystem::path& file, const std::filesystem::path& out,
                    const std::function<void(const std::string& name, int done, int of)>& progress);
+
+/// Silicone of another stiffness and another surface (assets/materials/surfaces.json), as it truly
+/// is on the virtual bench.
+struct SoftSurface {
+  std::string name;
+  double shear = 0;  ///< Pa
+  SiliconeLaw law;
+  /// A plain phantom, made of this: at the same ratio of bulk to shear modulus forces grow as the
+  /// shear modulus does, and shapes stay, so that nothing has to be solved again.
+  Phantom madeOf(Phantom plain) const;
+};
+/// Throws UsageError for fields that are missing or out of range.
+std::vector<SoftSurface> readSoftSurfaces(const std::filesystem::path& file);
 
 /// Throws UsageError where solved tables were made of another description than the file `name`.
 void needMadeOf(const JsonFile& tables, const std::filesystem::path& name);
