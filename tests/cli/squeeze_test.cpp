@@ -81,7 +81,7 @@ TEST(Squeeze, TheGuidesScriptComputesEveryAddedForceAgain) {
   const Folder here;
   ASSERT_EQ(squeeze({"--operator", "expert", "--trials", "2", "--out", "A"}, here).exit_code, 0);
   ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here.path()).exit_code, 0);
-  const ScriptVerdict verdict = checkedBy("check_touch.py", here, 1000000);
+  const ScriptVerdict verdict = checkedBy("check_touch.py", here, 30000);
   EXPECT_GT(verdict.ticks, 5000);
   EXPECT_LT(verdict.worst_mN, 1);
 }

@@ -345,8 +345,8 @@ TEST(TwoFingers, ATrackedFingersForceIsEstimatedAndCalledSo) {
   EXPECT_GT(ticks, 50'000);
   EXPECT_GT(most_N, 0.3);
   EXPECT_LT(worst_mN, 1);
-  const ScriptVerdict sums = checkedBy("check_ticks.py", here, 10'000);
-  EXPECT_EQ(sums.ticks, 10'000);
+  const ScriptVerdict sums = checkedBy("check_ticks.py", here, 10000);
+  EXPECT_EQ(sums.ticks, 10000);
   EXPECT_LT(sums.worst_mN, 1) << sums.said;
 }
 

@@ -117,30 +117,30 @@ std::vector<FloorFigure> figuresOf(const SearchFigures& f) {
       {"stimulus.svg", heightPlot(f.smooth, "Heights of the floor without texture", deep), names,
        "The stimulus without its texture: three discs, around each a groove, in its middle a pit. "
        "1 U is " +
-           trimmed(f.unit_mm, 3) + " mm in the hand. (Source: figure 1.)"},
+           trimmed(f.unit_mm, 3) + " mm in the hand. (Figure 1.)"},
       {"texture-target.svg",
        heightPlot(f.target.heights, "Heights of the target's texture", deep),
        {},
-       textureWords("the target", f.target) + " (Source: figure 3 a.)"},
+       textureWords("the target", f.target) + " (Figure 3 a.)"},
       {"texture-distractor.svg",
        heightPlot(f.distractor.heights, "Heights of a distractor's texture", deep),
        {},
-       textureWords("the distractors", f.distractor) + " (Source: figure 3 b.)"},
+       textureWords("the distractors", f.distractor) + " (Figure 3 b.)"},
       {"floor.svg",
        heightPlot(f.floor, "Heights of the floor as it is felt", deep),
        {},
-       "The floor as it is felt, with texture. (Source: figure 4 a.)"},
+       "The floor as it is felt, with texture. (Figure 4 a.)"},
       {"filter.svg",
        {f.filter.values, "Edge filter", "U", "of its largest", -1, 1, 1},
        {},
-       filterWords(f.filter) + " (Source: figure 5.)"},
+       filterWords(f.filter) + " (Figure 5.)"},
       {"response.svg",
        {f.response, "Response of the floor to the filter", "U", "response, U", -most, most, most},
        {},
        "The response of the floor without texture to this filter: orange where it rises, blue "
        "where "
        "it falls, for a probe that moves fast in that direction. Where it rises most a cue pushes. "
-       "(Source: figure 4 b.)"}};
+       "(Figure 4 b.)"}};
   if (f.way.empty()) return all;
   MapPlot way = heightPlot(f.smooth, "The probe's way over the floor", kPale);
   way.foot_px = kKeyRow * static_cast<double>((f.cues.size() + 3) / 2);
@@ -180,6 +180,9 @@ void writeSearchFigures(Html& html, const SearchFigures& figures) {
   const auto section = html.in("section", {{"class", "card"}, {"id", "floor"}});
   html.element("h2", "The floor of episode " + std::to_string(figures.trial) +
                          ": stimulus, texture and response");
+  html.element("p", {{"class", "muted small"}},
+               "Drawn after Edmunds and Pai, Perceptually augmented simulator design (2012); in "
+               "brackets the numbers of its figures.");
   const auto grid = html.in("div", {{"class", "maps"}});
   for (const FloorFigure& figure : figuresOf(figures)) {
     const auto element = html.in("figure");
