@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "anatomy/base/error.h"
 #include "apps/evidence/recorded_session.h"
@@ -84,10 +85,16 @@ TEST(MappedObject, AMapThatDoesNotBelongThereIsRefused) {
   refused([](auto& f) { f.station = "another"; });
   refused([](auto& f) { f.verdict = "touch it longer"; });
   refused([](auto& f) { f.kind = station::CalibrationKind::material; });
-  refused([](auto& f) { f.parameters[6].values.pop_back(); });
-  refused([](auto& f) { f.parameters[6].values[7] = -1; });
-  refused([](auto& f) { f.parameters[3].values[0] = 0.001; });
-  refused([](auto& f) { f.parameters.erase(f.parameters.begin() + 8); });
+  const auto values = [](station::CalibrationFile& f, const std::string& name) {
+    for (auto& parameter : f.parameters)
+      if (parameter.name == name) return &parameter.values;
+    throw std::out_of_range(name);
+  };
+  refused([&](auto& f) { values(f, "stiffness_N_per_m")->pop_back(); });
+  refused([&](auto& f) { values(f, "stiffness_N_per_m")->at(7) = -1; });
+  refused([&](auto& f) { values(f, "step_m")->at(0) = 0.001; });
+  refused(
+      [](auto& f) { std::erase_if(f.parameters, [](auto& p) { return p.name == "friction"; }); });
   options.surface = "ribs";
   EXPECT_THROW(PalpationWorld{options}, UsageError) << "it is not the same everywhere";
 }
