@@ -155,6 +155,45 @@ TEST(SearchPage, NoTextIsMarkup) {
   EXPECT_TRUE(holds(page, "&lt;script&gt;&quot;x&quot; &amp; &#39;y&#39;&lt;/script&gt;"));
 }
 
+/// Small, of made-up numbers; a cue between two places that are above the floor.
+SearchFigures drawnFloor() {
+  const MapValues map{2, 2, -120, 120, -120, 120, {0, -2, 1, 2}};
+  SearchFigures f;
+  f.trial = 3;
+  f.mode = "augmented";
+  f.unit_mm = 0.06;
+  f.smooth = f.floor = f.response = map;
+  f.target = {map, 2, 7, 5.6};
+  f.distractor = {map, 1, 3, 2.4};
+  f.filter = {map, 0.589, 3.75, 0.5};
+  f.elements = {{0, 60, true, true}, {50, -30, false, false}, {-50, -30, false, false}};
+  f.way = {{0, 0, false, 0}, {10, 0, true, 0}, {20, 0, true, 1}, {30, 0, false, 0}};
+  f.cues = {"edge <&>"};
+  return f;
+}
+
+TEST(SearchPage, TheFloorIsDrawnOnItAndAsFiles) {
+  SearchReport report = test::searchedSession();
+  EXPECT_FALSE(holds(searchPage(report), "stimulus, texture and response"));
+  report.figures = drawnFloor();
+  const std::string page = searchPage(report, "floor");
+  for (const char* words :
+       {"The floor of episode 3: stimulus, texture and response", "of radius 2 U on a grid of 7 U",
+        "0.589 rad", "cue: edge &lt;&amp;&gt;", ">target<"})
+    EXPECT_TRUE(holds(page, words)) << words;
+  EXPECT_EQ(timesIn(page, "class=\"chart map\""), 7u);
+  EXPECT_EQ(timesIn(page, "class=\"chosen\""), 1u);
+  EXPECT_EQ(timesIn(page, "<path class=\"way cue-0\""), 1u);
+
+  const auto folder = palpa::test::freshFolder("report", "search_figures");
+  const std::vector<std::string> files = writeFigureFiles(*report.figures, folder);
+  EXPECT_EQ(files.size(), 8u);
+  for (const std::string& file : files)
+    EXPECT_EQ(test::faultOf(palpa::test::slurp(folder / file)), "") << file;
+  report.figures->way.clear();
+  EXPECT_EQ(writeFigureFiles(*report.figures, folder).size(), 7u) << "no way, no picture of it";
+}
+
 TEST(SearchPage, LeavesOneToLookAt) { searchPage(test::searchedSession(), "example"); }
 
 TEST(SearchCsv, ARowAnEpisode) {
