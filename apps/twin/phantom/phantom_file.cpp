@@ -160,6 +160,7 @@ std::vector<SoftSurface> readSoftSurfaces(const std::filesystem::path& name) {
     surface.law.B = one.number("simulated/viscous_Ns_per_m", 0, 5);
     all.push_back(std::move(surface));
   }
+  if (all.empty()) file.refuse("surfaces", "needs at least one entry");
   return all;
 }
 
