@@ -78,7 +78,7 @@ class FieldGrid {
     for (int axis = 0; axis < 3; ++axis)
       size_[axis] = (static_cast<int>(std::ceil(box.sizes()[axis] / cell)) / kBlock + 1) * kBlock;
     values_.resize(std::size_t(size_[0]) * size_[1] * size_[2]);
-    forBlocks([&](int x, int y, int z) { fillBlock(field, slope, kBlock, x, y, z); });
+    forBlocks([&](int x, int y, int z) { fillBlock(field, slope, x, y, z); });
     compose();
   }
 
@@ -97,21 +97,15 @@ class FieldGrid {
         for (int x = 0; x < size_[0]; x += kBlock) visit(x, y, z);
   }
 
-  // One sample decides for blocks that the surface cannot reach; the rest is halved, once.
-  void fillBlock(const Field& field, double slope, int edge, int bx, int by, int bz) {
-    const double half = (edge - 1) / 2.0;
-    const double centre = field(point(bx + half, by + half, bz + half));
-    const double reach = slope * cell_ * std::sqrt(3.0) * (half + 1);
+  // One sample decides for blocks that the surface cannot reach.
+  void fillBlock(const Field& field, double slope, int bx, int by, int bz) {
+    constexpr double kHalf = (kBlock - 1) / 2.0;
+    const double centre = field(point(bx + kHalf, by + kHalf, bz + kHalf));
+    const double reach = slope * cell_ * std::sqrt(3.0) * (kHalf + 1);
     const bool far = std::abs(centre) > reach;
-    if (!far && edge == kBlock) {
-      for (const int z : {bz, bz + edge / 2})
-        for (const int y : {by, by + edge / 2})
-          for (const int x : {bx, bx + edge / 2}) fillBlock(field, slope, edge / 2, x, y, z);
-      return;
-    }
-    for (int z = bz; z < bz + edge; ++z)
-      for (int y = by; y < by + edge; ++y)
-        for (int x = bx; x < bx + edge; ++x)
+    for (int z = bz; z < bz + kBlock; ++z)
+      for (int y = by; y < by + kBlock; ++y)
+        for (int x = bx; x < bx + kBlock; ++x)
           values_[index(x, y, z)] = far ? centre : field(point(x, y, z));
   }
 
