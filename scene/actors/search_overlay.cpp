@@ -74,7 +74,8 @@ std::vector<Vec3> edgeOf(const CoverageGrid& grid) {
   const std::vector<Eigen::Vector2d> corners = cornersOf(grid);
   std::vector<Vec3> edge;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d from = corners[i], way = corners[(i + 1) % corners.size()] - from;
+    const Eigen::Vector2d& from = corners[i];
+    const Eigen::Vector2d way = corners[(i + 1) % corners.size()] - from;
     const int pieces =
         grid.top.flat() ? 1 : std::max(1, static_cast<int>(std::ceil(way.norm() / kPiece)));
     for (int k = 0; k < pieces; ++k)
@@ -164,7 +165,7 @@ SearchOverlay::~SearchOverlay() = default;
 
 /// Across the top of a grid at a place of it.
 Mat3 layOn(const CoverageGrid& grid, const Vec3& p_A) {
-  const Mat3 R = grid.X_AG.linear();
+  Mat3 R = grid.X_AG.linear();
   if (grid.top.flat()) return R;
   const Vec3 p_G = grid.X_AG.inverse() * p_A;
   return R * turnToNormal(normalOf(grid.top, p_G.x(), p_G.y()));

@@ -20,7 +20,7 @@ MapValues ramp(int columns, int rows) {  // grows toward +x and, tenfold, toward
 }
 
 std::string colourAt(const cv::Mat& picture, int row, int column) {
-  const auto pixel = picture.at<cv::Vec3b>(row, column);  // blue, green, red
+  const auto& pixel = picture.at<cv::Vec3b>(row, column);  // blue, green, red
   char text[8];
   std::snprintf(text, sizeof text, "#%02x%02x%02x", pixel[2], pixel[1], pixel[0]);
   return text;

@@ -242,8 +242,11 @@ std::vector<Kind> materialKinds() {
            .forgiving = {"/covariance/coordinates as (null|\\{\\})"},
            .elsewhere = {"/sha256.*"},  // renewed after each change
            .free = {"/parameters/.*"},  // each routine has its own
-           .seal = sealCalibration},
-          {.name = "phantoms",
+           .seal = sealCalibration}};
+}
+
+std::vector<Kind> phantomKinds() {
+  return {{.name = "phantoms",
            .samples = {{"phantoms/mockups.json", json::object()}},
            .read = [](const fs::path& file) { twin::readPhantoms(file); },
            // Tools stay on the block and apart, lumps in it.
@@ -531,8 +534,8 @@ std::vector<Kind> operatorKinds() {
 
 std::vector<Kind> everyKind() {
   std::vector<Kind> all{stationKind(), campaignKind()};
-  for (const std::vector<Kind>& some :
-       {taskKinds(), materialKinds(), patientKinds(), studyKinds(), operatorKinds()})
+  for (const std::vector<Kind>& some : {taskKinds(), materialKinds(), phantomKinds(),
+                                        patientKinds(), studyKinds(), operatorKinds()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

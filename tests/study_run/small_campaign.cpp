@@ -28,7 +28,7 @@ SmallCampaign::SmallCampaign()
 }
 
 fs::path SmallCampaign::put(const std::string& name, const json& file) const {
-  const fs::path path = here_ / name;
+  fs::path path = here_ / name;
   fs::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << file.dump(1);
   return path;

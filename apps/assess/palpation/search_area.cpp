@@ -49,8 +49,8 @@ double insideBy(const SearchArea& area, const Vec3& p_P) {
 }
 
 Vec3 nearestIn(const SearchArea& area, const Vec3& p_P) {
-  const Vec3 in_box(std::clamp(p_P.x(), -area.half_x, area.half_x),
-                    std::clamp(p_P.y(), -area.half_y, area.half_y), p_P.z());
+  Vec3 in_box(std::clamp(p_P.x(), -area.half_x, area.half_x),
+              std::clamp(p_P.y(), -area.half_y, area.half_y), p_P.z());
   if (!hasOutline(area) || within(area.outline, in_box.head<2>())) return in_box;
   const Vector2d edge = nearestOn(area.outline, in_box.head<2>());
   return {edge.x(), edge.y(), p_P.z()};
