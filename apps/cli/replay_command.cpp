@@ -218,7 +218,7 @@ constexpr const char* kExportExamples = R"(Examples:
       where they were; ticks.columns.txt says what its columns are, ticks.laws.json by which laws
   python3 docs/check_ticks.py ticks.csv
       adds every force up and computes the cues again
-What a force is made of is not in the record: the ticks are run again for it, as palpa replay does.)";
+What a force is made of is not in the record: the ticks are run again for it, as by palpa replay.)";
 
 }  // namespace
 

@@ -70,7 +70,8 @@ constexpr const char* kPalpationExamples = R"(Examples:
   palpa palpation --preset prostate --operator novice --trials 8 --fast
       a smaller phantom, eight cases: the fewest on which a trainee passes or fails
   palpa palpation --preset neck --operator expert --trials 2 --fast
-      a thyroid beside its windpipe, curved as a neck is; so are breast_curved, abdomen_curved, prostate_curved and forearm
+      a thyroid beside its windpipe, curved as a neck is; so are breast_curved, abdomen_curved,
+      prostate_curved and forearm
   palpa palpation --preset taken --operator expert --trials 8 --fast
       a lump that really lies in the silicone: felt in half of the cases, taken away in the others; what of that is passive is printed first
   palpa palpation --tools 2 --operator expert --fast
@@ -81,7 +82,8 @@ constexpr const char* kPalpationExamples = R"(Examples:
       the same lumps in another of the four surfaces that can lie on the virtual bench
   palpa calibrate object --mockup ribs --out ribs
   palpa palpation --surface ribs --map ribs/object.json --operator expert --fast
-      on a block with two ribs below, learnt by touch before: the map is drawn on it, and what is rendered follows it
+      on a block with two ribs below, learnt by touch before: the map is drawn on it, and what is
+      rendered follows it
   palpa palpation --station my_station.json --guidance on --trials 16
       you, on a station with a haptic device and a force sensor; help that fades; every other case is without it
   palpa palpation

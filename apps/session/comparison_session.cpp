@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "anatomy/base/counted.h"
 #include "anatomy/parametric/phantoms.h"
 #include "apps/report/comparison/comparison_report.h"
 #include "apps/session/output_folder.h"
@@ -233,16 +232,7 @@ void writeComparisonOutcome(const SessionOptions& options, const ComparisonWorld
                 training::nameOf(trial.trial.role).c_str(),
                 trial.trial.simulated ? ", simulated" : "",
                 trial.reason.empty() ? summaryOf(trial.trial).c_str() : trial.reason.c_str());
-  if (!options.report) return;
-  std::printf("Written to %s:\n", folder.string().c_str());
-  std::printf("  report.html     what was told apart, and how well: open this first\n");
-  std::printf(
-      "  trials.csv      one row a scored trial\n  session.palpa   the evidence: every tick%s, for "
-      "replay\n",
-      world.tools() == 2 ? " of both tools" : "");
-  if (!run.pictures.empty())
-    std::printf("  view-*.png      %s of the marked moments\n",
-                counted(run.pictures.size(), "picture").c_str());
+  if (options.report) sayWritten(run, folder, "what was told apart, and how well", "scored trial");
 }
 
 }  // namespace palpa::session

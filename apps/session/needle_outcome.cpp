@@ -7,7 +7,6 @@
 #include <sstream>
 #include <tuple>
 
-#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/evidence/rating_forms.h"
@@ -214,22 +213,8 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
 
   sayResult(result);
   if (!world.not_scored.empty()) std::printf("Not scored: %s\n", world.not_scored.c_str());
-  if (!options.report) return;
-  std::printf("Written to %s:\n", folder.string().c_str());
-  std::printf("  report.html     what happened, with reasons and pictures: open this first\n");
-  std::printf(
-      "  trials.csv      one row a trial\n  session.palpa   the evidence: every tick, for "
-      "replay\n");
-  if (!result.registration.empty())
-    std::printf("  registration.csv  how the board was found in each picture\n");
-  if (result.video)
-    std::printf(
-        "  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, "
-        "and where the board was\n",
-        static_cast<unsigned long long>(result.video->pictures));
-  if (!result.pictures.empty())
-    std::printf("  view-*.png      %s of the marked moments\n",
-                counted(result.pictures.size(), "picture").c_str());
+  if (options.report)
+    sayWritten(result, folder, "what happened, with reasons and pictures", "trial");
 }
 
 }  // namespace palpa::session

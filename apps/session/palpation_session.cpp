@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "anatomy/base/counted.h"
 #include "apps/report/palpation/palpation_report.h"
 #include "apps/session/mouse_hands.h"
 #include "apps/session/output_folder.h"
@@ -338,21 +337,8 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
                 a.facts.simulated ? ", simulated" : "",
                 trial.reason.empty() ? a.summary.c_str() : trial.reason.c_str());
   }
-  if (!options.report) return;
-  std::printf("Written to %s:\n", folder.string().c_str());
-  std::printf(
-      "  report.html     what was found and felt, with reasons and pictures: open this first\n");
-  std::printf(
-      "  trials.csv      one row a scored trial\n  session.palpa   the evidence: every tick, for "
-      "replay\n");
-  if (run.video)
-    std::printf(
-        "  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, "
-        "and where the board was\n",
-        static_cast<unsigned long long>(run.video->pictures));
-  if (!run.pictures.empty())
-    std::printf("  view-*.png      %s of the marked moments\n",
-                counted(run.pictures.size(), "picture").c_str());
+  if (options.report)
+    sayWritten(run, folder, "what was found and felt, with reasons and pictures", "scored trial");
 }
 
 }  // namespace palpa::session

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "anatomy/base/counted.h"
 #include "anatomy/parametric/phantoms.h"
 #include "apps/report/pulse/pulse_report.h"
 #include "apps/runtime/clock.h"
@@ -115,15 +114,7 @@ void writePulseOutcome(const SessionOptions& options, const PulseWorld& world, c
         "Trial %d (%s%s): %s\n", trial.trial.trial, training::nameOf(trial.trial.role).c_str(),
         trial.trial.simulated ? ", simulated" : "",
         trial.reason.empty() ? summaryOf(trial.trial, rules).c_str() : trial.reason.c_str());
-  if (!options.report) return;
-  std::printf("Written to %s:\n", folder.string().c_str());
-  std::printf("  report.html     what was found, counted and told: open this first\n");
-  std::printf(
-      "  trials.csv      one row a scored trial\n  session.palpa   the evidence: every tick, for "
-      "replay\n");
-  if (!run.pictures.empty())
-    std::printf("  view-*.png      %s of the marked moments\n",
-                counted(run.pictures.size(), "picture").c_str());
+  if (options.report) sayWritten(run, folder, "what was found, counted and told", "scored trial");
 }
 
 }  // namespace palpa::session

@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/parametric/phantoms.h"
 #include "apps/evidence/search_figures.h"
@@ -249,15 +248,8 @@ void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
   for (const assess::SearchTally& tally : assess::talliesOf(trials))
     std::printf("%s%s%s: found in %d of %d episodes\n", tally.block.c_str(),
                 tally.block.empty() ? "" : ", ", name(tally.mode), tally.found, tally.episodes);
-  if (!options.report) return;
-  std::printf("Written to %s:\n", folder.string().c_str());
-  std::printf("  report.html     how often and how fast the target was found: open this first\n");
-  std::printf(
-      "  trials.csv      one row a scored episode\n  session.palpa   the evidence: every tick, for "
-      "replay\n");
-  if (!run.pictures.empty())
-    std::printf("  view-*.png      %s of the marked moments\n",
-                counted(run.pictures.size(), "picture").c_str());
+  if (options.report)
+    sayWritten(run, folder, "how often and how fast the target was found", "scored episode");
 }
 
 }  // namespace palpa::session

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/uuid.h"
 #include "apps/live/wire.h"
 #include "apps/os/child_process.h"
@@ -279,6 +280,23 @@ SessionRun SessionFrame::leftBy(const trial::TrialTask& task, const trial::Trial
   run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;
   run.quit = task.quit();
   return run;
+}
+
+void sayWritten(const SessionRun& run, const std::filesystem::path& folder, const char* report,
+                const char* row) {
+  std::printf("Written to %s:\n  report.html     %s: open this first\n", folder.c_str(), report);
+  std::printf("  trials.csv      one row a %s\n", row);
+  std::printf("  session.palpa   the evidence: every tick, for replay\n");
+  if (!run.registration.empty())
+    std::printf("  registration.csv  how the board was found in each picture\n");
+  if (run.video)
+    std::printf(
+        "  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, "
+        "and where the board was\n",
+        static_cast<unsigned long long>(run.video->pictures));
+  if (!run.pictures.empty())
+    std::printf("  view-*.png      %s of the marked moments\n",
+                counted(run.pictures.size(), "picture").c_str());
 }
 
 }  // namespace palpa::session

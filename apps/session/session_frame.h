@@ -42,6 +42,11 @@ struct SessionRun {
   bool quit = false;
 };
 
+/// Says which files a session left in its folder. `report`: what its page tells; `row`: of what
+/// the table has one each.
+void sayWritten(const SessionRun& run, const std::filesystem::path& folder, const char* report,
+                const char* row);
+
 /// What a session took of the processor's time, ns; for `palpa bench session` alone.
 struct SessionCost {
   bool by_stage = false;        ///< asked for: `steps` and `drawing_ns`, which cost something

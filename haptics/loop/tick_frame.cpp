@@ -150,9 +150,9 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, TickFrame& frame,
   const SafetyInput& in = frame.input;
   const double fresh = frame.fresh;
   const Vec3 f_D = fresh * f_felt_D;
+  frame.forces.rendered = commands.force_feedback ? fresh : 0;
   if (!commands.force_feedback || !commands.armed || fresh == 0) {
     state.passivity = PassivityState{};
-    frame.forces.rendered = commands.force_feedback ? fresh : 0;
     return commands.force_feedback ? f_D : Vec3::Zero();
   }
   PassivityInput port;
@@ -164,7 +164,6 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, TickFrame& frame,
   port.dt = in.dt;
   Vec3 f_passive_D = keepPassive(config.passivity, state.passivity, port);
   state.passivity.sequence = in.sequence;
-  frame.forces.rendered = fresh;
   frame.forces.damping = f_passive_D - f_D;
   return f_passive_D;
 }
