@@ -40,36 +40,33 @@ std::error_code createNew(const fs::path& file) {
   return opened(file, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
 }
 
-namespace {
+std::error_code createPrivate(const fs::path& file) {
+  if (const std::error_code problem = createNew(file); problem != std::errc::file_exists)
+    return problem;
+  struct stat facts {};
+  if (::lstat(file.c_str(), &facts) != 0) return lastError();
+  if (S_ISLNK(facts.st_mode)) return make_error_code(std::errc::too_many_symbolic_link_levels);
+  if (!S_ISREG(facts.st_mode)) return make_error_code(std::errc::operation_not_permitted);
+  return ::faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) == 0 ? std::error_code{}
+                                                                    : lastError();
+}
 
-/// Nothing but a file, and where it must be `own` one of this user's; whoever put a link or a pipe
-/// there gets nothing.
-std::error_code useOne(const fs::path& file, int flags, bool own, const std::string& text) {
-  const int descriptor = ::open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+std::error_code appendPrivate(const fs::path& file, const std::string& text) {
+  if (const std::error_code made = createNew(file); made && made != std::errc::file_exists)
+    return made;
+  constexpr int kNoneElse = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;  // no link, no pipe that waits
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | kNoneElse);
   if (descriptor < 0) return lastError();
   std::error_code problem;
   struct stat facts {};
   if (::fstat(descriptor, &facts) != 0)
     problem = lastError();
-  else if (!S_ISREG(facts.st_mode) || (own && facts.st_uid != ::geteuid()))
+  else if (!S_ISREG(facts.st_mode) || facts.st_uid != ::geteuid())
     problem = make_error_code(std::errc::operation_not_permitted);
   else if (::write(descriptor, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     problem = make_error_code(std::errc::no_space_on_device);
   ::close(descriptor);
   return problem;
-}
-
-}  // namespace
-
-std::error_code createPrivate(const fs::path& file) {
-  const std::error_code problem = createNew(file);
-  return problem == std::errc::file_exists ? useOne(file, O_RDWR, false, "") : problem;
-}
-
-std::error_code appendPrivate(const fs::path& file, const std::string& text) {
-  const std::error_code problem = createNew(file);
-  if (problem && problem != std::errc::file_exists) return problem;
-  return useOne(file, O_WRONLY | O_APPEND, true, text);
 }
 
 std::error_code makeFolders(const fs::path& folder) {

@@ -11,8 +11,8 @@ namespace palpa::os {
 /// taken, also by a link, or by another process a moment ago: what is there stays as it is.
 std::error_code createNew(const std::filesystem::path& file);
 /// The same, unless there is one: that stays as it is, whoever's it is, and must be a file that
-/// this user may write. std::errc::too_many_symbolic_link_levels for a link, which is never
-/// followed.
+/// this user may write. It is not opened: to close it would let go of the locks that this program
+/// has on it. std::errc::too_many_symbolic_link_levels for a link, which is never followed.
 std::error_code createPrivate(const std::filesystem::path& file);
 /// Writes `text` behind what such a file holds, where it is this user's own.
 std::error_code appendPrivate(const std::filesystem::path& file, const std::string& text);

@@ -131,6 +131,17 @@ TEST_P(Stations, OnAStoreThatNobodyMadeYet) {
   EXPECT_EQ(RecordStore(fresh).trainees().size(), static_cast<std::size_t>(kStations));
 }
 
+/// A console has the records open more than once. What one opens and closes must not let go of the
+/// file for the others: a station that is done would then clear away the log they write to.
+TEST_P(Stations, OneProgramMayOpenThemTwice) {
+  RecordStore first(url);
+  { RecordStore second(url); }
+  EXPECT_EQ(WriterProcess({url, "Elsewhere"}).wait(), 0);
+  first.addTrainee(novice("Here"));
+  EXPECT_EQ(WriterProcess({url, "Here"}).wait(), 3);  // it sees that one
+  EXPECT_EQ(RecordStore(url).trainees().size(), static_cast<std::size_t>(kStations + 2));
+}
+
 TEST_P(Stations, OfTheSameNewTraineeOneIsAdded) {
   std::vector<WriterProcess> stations;
   for (int s = 0; s < kStations; ++s) stations.push_back(WriterProcess({url, "Same"}));

@@ -2,7 +2,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
@@ -24,27 +23,43 @@ void makeFile(const std::string& file) {
                  : "");
 }
 
+/// What the file begins with, and its size. It is read with SQLite's own descriptor: to close
+/// another one would let go of every lock that this program has on the file.
+/// https://www.sqlite.org/howtocorrupt.html, 2.2
+struct Beginning {
+  char bytes[18] = {};
+  sqlite3_int64 size = 0;
+};
+
+Beginning beginningOf(sqlite3* handle) {
+  Beginning start;
+  sqlite3_file* file = nullptr;
+  if (sqlite3_file_control(handle, "main", SQLITE_FCNTL_FILE_POINTER, &file) != SQLITE_OK ||
+      file->pMethods->xFileSize(file, &start.size) != SQLITE_OK)
+    return {};  // the first statement says why
+  file->pMethods->xRead(file, start.bytes, sizeof start.bytes, 0);
+  return start;
+}
+
 /// SQLite fills up what is missing of the last page and says nothing. With a log beside, the file
 /// may well be in the middle of being written.
-void checkWhole(const std::string& file, const char* header) {
-  const auto high = static_cast<unsigned char>(header[16]),
-             low = static_cast<unsigned char>(header[17]);
-  const std::uintmax_t page =
-      high == 0 && low == 1 ? 65536 : 256u * high + low;  // as the file format has it
+void checkWhole(const std::string& file, const Beginning& start) {
+  const auto high = static_cast<unsigned char>(start.bytes[16]),
+             low = static_cast<unsigned char>(start.bytes[17]);
+  const int page = high == 0 && low == 1 ? 65536 : 256 * high + low;  // as the file format has it
   std::error_code none;
   const std::uintmax_t log = std::filesystem::file_size(file + "-wal", none);
-  if (page == 0 || (!none && log > 0) || std::filesystem::file_size(file) % page == 0) return;
+  if (page == 0 || (!none && log > 0) || start.size % page == 0) return;
   throw Error(
       "is damaged (it was cut short)", "records file " + file,
       "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE .recover`");
 }
 
-void checkKind(const std::string& file) {
-  char start[18] = {};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(start, sizeof start);
-  if (stream.gcount() == 0) return;  // new
-  if (stream.gcount() < 16 || std::memcmp(start, "SQLite format 3", 16) != 0)
+void checkKind(Database& database) {
+  const std::string file = database.file().string();
+  const Beginning start = beginningOf(database.handle());
+  if (start.size == 0) return;  // new
+  if (start.size < 16 || std::memcmp(start.bytes, "SQLite format 3", 16) != 0)
     throw Error("is not a records file", "records file " + file,
                 "Give the right file, or restore it from a backup");
   checkWhole(file, start);
@@ -62,8 +77,8 @@ Database::Mode readingMode(const std::string& file) {
 class SqliteConnection final : public SqlConnection {
  public:
   SqliteConnection(const std::string& file, Access access)
-      : database_(readied(file, access),
-                  access == Access::write ? Database::Mode::write : readingMode(file)) {
+      : database_(file, access == Access::write ? Database::Mode::write : readingMode(file)) {
+    checkKind(database_);
     sqlite3_busy_timeout(database_.handle(), kWaitForOthers_ms);
     guarded([&] { access == Access::write ? prepare() : check(); });
   }
@@ -133,12 +148,13 @@ class SqliteConnection final : public SqlConnection {
     checkPages();
   }
 
-  /// 0: a file that holds nothing yet.
+  /// 0: a file that holds nothing yet. Both are of one moment: another station may be making it.
   std::int64_t ownId() {
-    const std::int64_t id = database_.integer("PRAGMA application_id");
-    if (id == kRecordsApplicationId ||
-        (id == 0 && database_.integer("SELECT count(*) FROM sqlite_master") == 0))
-      return id;
+    database_.exec("BEGIN");
+    const std::int64_t id = database_.integer("PRAGMA application_id"),
+                       tables = database_.integer("SELECT count(*) FROM sqlite_master");
+    database_.exec("COMMIT");
+    if (id == kRecordsApplicationId || (id == 0 && tables == 0)) return id;
     throw Error("is a database of another program", place(),
                 "Give the right file; a session's evidence is added by palpa records add");
   }
@@ -201,12 +217,6 @@ class SqliteConnection final : public SqlConnection {
       }
   }
 
-  static std::string readied(const std::string& file, Access access) {
-    if (access == Access::write) makeFile(file);
-    checkKind(file);
-    return file;
-  }
-
   static std::vector<SqlValue> rowOf(const Statement& statement) {
     std::vector<SqlValue> row;
     for (int c = 0; c < statement.columns(); ++c) row.push_back(statement.value(c));
@@ -219,6 +229,7 @@ class SqliteConnection final : public SqlConnection {
 }  // namespace
 
 std::unique_ptr<SqlConnection> openSqlite(const std::string& file, Access access) {
+  if (access == Access::write) makeFile(file);
   return std::make_unique<SqliteConnection>(file, access);
 }
 
