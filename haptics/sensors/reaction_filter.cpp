@@ -32,6 +32,7 @@ constexpr double kRise = 0.26;                           // 1 - 1/M of the force
 constexpr double kAir_N = 0.01, kAir_s = 0.1, kLate_s = 0.02;
 constexpr double kSpeedNoise = 5e-3;  // m/s, of the difference of two velocities
 constexpr int kBlock = 50;            // ticks
+constexpr double kMassWithin = 0.2;   // of the identified one: the gains are of that
 constexpr double kBiasWalk = 1e-3;    // N/sqrt(s): a sensor that warms up
 constexpr double kLongestGap = 10;    // ticks
 constexpr std::int32_t kSettling = 30, kLongQuiet = 1 << 30;  // ticks
@@ -212,7 +213,7 @@ struct ReactionStep {
     if (++state.block < kBlock) return;
     state.block = 0;
     const Vec3 a = (Vec3(x.row(1)) - unpack(state.v_first)) / (kBlock * dt);
-    rows << turns / kBlock, g - a;
+    rows << turns / kBlock, g;  // not g - a: the noise of a would pull the mass toward zero
     learn(rows, unpack(state.shown_sum) / kBlock + mass() * a);
   }
 
@@ -230,6 +231,8 @@ struct ReactionStep {
       P -= gain * shown.transpose();
     }
     load += learnt;
+    const double widest = kMassWithin * of.tool.mass;
+    load[3] = std::clamp(load[3], -widest, widest);
   }
 };
 

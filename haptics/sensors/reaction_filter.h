@@ -45,9 +45,11 @@ struct ReactionSettings {
 /// 1, and the last alert, which fades within 50 ms.
 ///
 /// In the air the reaction is zero, and what is shown is the bias's and the mass's error: both are
-/// states of a second filter, which only then learns, from the mean of s and M's change of velocity
-/// over 50 ms. The air is where for 0.1 s the mean of f over 20 ms is no more than 10 mN and what
-/// these doubts explain.
+/// states of a second filter, which only then learns, from the mean of s + m a over 50 ms, a from
+/// M's change of velocity: the bias however the tool is held, the mass only where it is turned, and
+/// by no more than a fifth. (The gains are of the identified mass: with half of it the first filter
+/// is not stable.) The air is where for 0.1 s the mean of f over 20 ms is no more than 10 mN and
+/// what these doubts explain.
 ///
 /// Sources: Kalman, J. Basic Eng. 82, 1960; Simon, Optimal State Estimation, 2006, ch. 5 and 7;
 /// Hunt, Crossley, J. Appl. Mech. 42, 1975 (the law). Its settings are [chosen]:

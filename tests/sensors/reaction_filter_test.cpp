@@ -194,6 +194,33 @@ TEST(ReactionFilter, ASpringThatTheToolsInertiaHidesIsSeen) {
   EXPECT_LT(std::sqrt(off / of), 0.65) << "half of what is off where nothing predicts it, 1.4";
 }
 
+/// A light tool in a hand that trembles, never turned: its mass and a bias along gravity cannot be
+/// told apart, and the noise of its acceleration says nothing of either.
+TEST(ReactionFilter, WhatIsNeverTurnedKeepsItsMass) {
+  ReactionSettings settings;
+  settings.tool.mass = 0.012;
+  const ReactionFilter filter(settings);
+  ReactionState state;
+  RandomStream noise(7, "sensor");
+  constexpr double kTremor = 5e-5, kStep = 23e-6;  // m
+  const double omega = 2 * M_PI * 9;
+  constexpr int ticks = 600'000, judged = 10'000;  // ten minutes
+  double off = 0;
+  for (int i = 0; i < ticks; ++i) {
+    const double t = 1e-3 * i, x = kTremor * std::sin(omega * t);
+    const Vec3 a(-omega * omega * x, 0, 0);
+    WrenchSample sample;
+    sample.f_S = pack(Vec3(settings.tool.mass * (kGravity - a)));
+    for (double& f : sample.f_S) f += kNoise * noise.normal();
+    PackedPose X_WS;
+    X_WS.p[0] = kStep * std::round((x + 0.02 * std::sin(0.3 * t)) / kStep);
+    const Reaction now = step(filter, state, sample, X_WS, 1'000'000LL * i);
+    if (i >= ticks - judged) off += unpack(now.f_W).squaredNorm();
+  }
+  EXPECT_LT(std::abs(state.load[3]), settings.mass_sd * settings.tool.mass);
+  EXPECT_LT(std::sqrt(off / judged), 0.03);
+}
+
 TEST(ReactionFilterSettings, ThatMakeNoSenseAreRefused) {
   ReactionSettings settings;
   settings.tool.mass = 0.03;
