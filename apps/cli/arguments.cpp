@@ -193,6 +193,37 @@ void addAugmentArgument(CLI::App& command, session::SessionOptions& o) {
          "Add the task's own cues to the forces, each in its part of the task (default off)");
 }
 
+void addFingerArguments(CLI::App& command, session::SessionOptions& options) {
+  command
+      .add_option("--tools", options.tools,
+                  "Fingers that press (default 1); 2: each on a device of its own, side by side")
+      ->check(CLI::Range(1, 2))
+      ->type_name("1|2");
+  command
+      .add_option_function<std::string>(
+          "--second",
+          [&options](const std::string& what) { options.tracked_finger = what == "finger"; },
+          "What the second finger is on: a device with a force sensor (default), or nothing: a "
+          "bare finger that is tracked, whose force is estimated")
+      ->check(oneOf({"device", "finger"}))
+      ->type_name("device|finger");
+}
+
+void addObjectArguments(CLI::App& command, session::SessionOptions& options) {
+  command
+      .add_option(
+          "--surface", options.surface,
+          "What lies on the virtual bench: oiled gel, skin, leather or rubber, or, with its "
+          "map, an object that is not the same everywhere")
+      ->type_name("NAME");
+  command
+      .add_option("--map", options.map,
+                  "What it is like from place to place: the object.json of palpa calibrate object; "
+                  "the laws of what is felt follow it")
+      ->type_name("FILE")
+      ->check(somethingThere(""));
+}
+
 void addSessionArguments(CLI::App& command, session::SessionOptions& o) {
   addRunArguments(command, o);
   addAugmentArgument(command, o);

@@ -15,6 +15,10 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& options);
 void addRunArguments(CLI::App& command, session::SessionOptions& options);
 /// --augment, where a task's file has augmentations that are off by default.
 void addAugmentArgument(CLI::App& command, session::SessionOptions& options);
+/// How many fingers press, and what the second one is on.
+void addFingerArguments(CLI::App& command, session::SessionOptions& options);
+/// What lies there, where something soft is touched.
+void addObjectArguments(CLI::App& command, session::SessionOptions& options);
 /// Those of addRunArguments, and those of a needle's session.
 void addSessionArguments(CLI::App& command, session::SessionOptions& options);
 

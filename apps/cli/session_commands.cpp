@@ -46,22 +46,6 @@ void addParacentesis(CLI::App& program) {
 
 namespace {
 
-/// What lies there, where something soft is touched with one tool.
-void addObjectArguments(CLI::App& command, session::SessionOptions& options) {
-  command
-      .add_option(
-          "--surface", options.surface,
-          "What lies on the virtual bench: oiled gel, skin, leather or rubber, or, with its "
-          "map, an object that is not the same everywhere")
-      ->type_name("NAME");
-  command
-      .add_option("--map", options.map,
-                  "What it is like from place to place: the object.json of palpa calibrate object; "
-                  "the laws of what is felt follow it")
-      ->type_name("FILE")
-      ->check(somethingThere(""));
-}
-
 constexpr const char* kPalpationExamples = R"(Examples:
   palpa palpation --operator expert --fast --out A
       a simulated examiner searches silicone for lumps that are not there; open A/report.html
@@ -133,19 +117,7 @@ void addPalpation(CLI::App& program) {
          "A ring and the map of what was felt, in every other case, fading (default off)");
   on_off("--see-through", options->see_through,
          "Show the lumps (default off); such trials are not scored");
-  command
-      ->add_option("--tools", options->tools,
-                   "Fingers that press (default 1); 2: each on a device of its own, side by side")
-      ->check(CLI::Range(1, 2))
-      ->type_name("1|2");
-  command
-      ->add_option_function<std::string>(
-          "--second",
-          [options](const std::string& what) { options->tracked_finger = what == "finger"; },
-          "What the second finger is on: a device with a force sensor (default), or nothing: a "
-          "bare finger that is tracked, whose force is estimated")
-      ->check(oneOf({"device", "finger"}))
-      ->type_name("device|finger");
+  addFingerArguments(*command, *options);
   addObjectArguments(*command, *options);
   on_off(
       "--show-map", options->show_map,
@@ -293,19 +265,30 @@ void addSearch(CLI::App& program) {
 
 namespace {
 
+/// What a session of this kind takes.
+void addArgumentsOf(Engine engine, CLI::App& command, session::SessionOptions& options) {
+  if (engine == Engine::needle) return addSessionArguments(command, options);
+  addRunArguments(command, options);
+  if (engine == Engine::palpation) {
+    addFingerArguments(command, options);
+    addAugmentArgument(command, options);
+  }
+  if (engine == Engine::friction) addSortArgument(command, options);
+  if (engine == Engine::palpation || engine == Engine::friction || engine == Engine::pulse)
+    addObjectArguments(command, options);
+}
+
 /// An option that means nothing here is a misunderstanding, not a wish.
-void refuseNeedleOptions(const CLI::App& given, Engine engine) {
+void refuseOthersOptions(const CLI::App& given, Engine engine) {
   CLI::App known;
   session::SessionOptions unused;
-  addRunArguments(known, unused);
-  if (engine == Engine::palpation) addAugmentArgument(known, unused);
-  if (engine == Engine::friction) addSortArgument(known, unused);
+  addArgumentsOf(engine, known, unused);
   for (const CLI::Option* option : given.get_options()) {
     const std::string name = option->get_name();
     if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name))
       throw UsageError(
           "has no meaning for this task", name,
-          "Leave it out; palpa " + training::nameOf(engine) + " --help lists what there is");
+          "Leave it out; palpa " + training::commandOf(engine) + " --help lists what there is");
   }
 }
 
@@ -317,20 +300,21 @@ void addTrain(CLI::App& program) {
   command->footer(
       "Examples:\n  palpa train --task assets/tasks/paracentesis.json --operator expert --fast\n  "
       "palpa train --task assets/tasks/palpation_prostate.json --operator expert --fast\n  palpa "
-      "train --task assets/tasks/bone_pin.json --augment on --operator expert --fast");
+      "train --task assets/tasks/bone_pin.json --augment on --operator expert --fast\n  palpa "
+      "train "
+      "--task assets/tasks/palpation_breast.json --tools 2 --operator expert --fast");
   command->add_option("--task", options->task, "Task file")
       ->required()
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
   addSessionArguments(*command, *options);
+  addFingerArguments(*command, *options);
+  addObjectArguments(*command, *options);
   addSortArgument(*command, *options);
   command->callback([options, command] {
     options->command = "train";
     const Engine engine = training::engineIn(JsonFile(options->task));
-    if (engine != Engine::needle) refuseNeedleOptions(*command, engine);
-    if (options->sort && engine != Engine::friction)
-      throw UsageError("has no meaning for this task", "--sort",
-                       "Leave it out; only a friction task has surfaces to put in order");
+    refuseOthersOptions(*command, engine);
     session::holdSession(engine, *options);
   });
 }

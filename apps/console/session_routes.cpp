@@ -1,17 +1,11 @@
-#include <algorithm>
-
 #include "anatomy/base/error.h"
-#include "anatomy/base/json_file.h"
 #include "apps/console/routes.h"
 #include "apps/console/sessions.h"
+#include "apps/console/task_choices.h"
 #include "apps/live/wire.h"
 #include "apps/record/store/record_store.h"
-#include "apps/station/assets.h"
-#include "apps/training/engine.h"
 
 namespace palpa::console {
-
-using training::Engine;
 
 namespace {
 
@@ -68,6 +62,8 @@ SessionWish readWish(const nlohmann::json& asked) {
   wish.assess = flagIn(asked, "assess", false);
   wish.force_feedback = flagIn(asked, "force_feedback", true);
   wish.sort = flagIn(asked, "sort", false);
+  wish.fingers = static_cast<int>(numberIn(asked, "fingers", 1, 1, 2));
+  wish.surface = textIn(asked, "surface", "");
   wish.trials = static_cast<int>(numberIn(asked, "trials", 1, 1, 50));
   wish.seed = numberIn(asked, "seed", 1, 0, kMostSeed);
   wish.patient_seed = numberIn(asked, "patient_seed", 0, 0, kMostSeed);
@@ -76,99 +72,17 @@ SessionWish readWish(const nlohmann::json& asked) {
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Task {
-  std::string id, title;
-  Engine engine;
-  fs::path file;
-};
-
-/// What of a task's kind an educator may choose, and what it asks of the trainee.
-struct EngineOptions {
-  Engine engine;
-  const char* about;
-  bool side, person_by_mouse;
-};
-constexpr EngineOptions kKinds[] = {
-    {Engine::needle, "Guide a needle to a target that is felt, and seen over the camera's picture.",
-     true, true},
-    {Engine::palpation,
-     "Search a soft phantom for lumps: they are felt, although the silicone has none.", false,
-     true},
-    {Engine::squeeze, "Compare two things between two fingers: which is harder, which is heavier?",
-     false, false},
-    {Engine::search, "Find the rough one of three hidden discs by feel.", false, false},
-    {Engine::friction, "Stroke over one surface, then over another: which is rougher?", false,
-     false},
-    {Engine::pulse, "Find a pulse by feel, count it for 30 seconds and name its rhythm.", false,
-     false},
-};
-
-const EngineOptions& kindOf(Engine engine) {
-  return *std::find_if(std::begin(kKinds), std::end(kKinds),
-                       [&](const EngineOptions& kind) { return engine == kind.engine; });
-}
-
-std::vector<Task> tasks() {
-  std::vector<Task> all;
-  for (const auto& entry : fs::directory_iterator(station::assetFile("tasks"))) {
-    if (entry.path().extension() != ".json") continue;
-    const JsonFile file(entry.path());
-    if (!file.has("engine") || !file.has("id") || !file.has("title")) continue;
-    const std::optional<Engine> engine = training::engineNamed(file.text("engine"));
-    if (!engine) continue;
-    all.push_back({file.text("id"), file.text("title"), *engine, entry.path()});
-  }
-  const auto first = [](const Task& task) { return std::pair(task.id != "paracentesis", task.id); };
-  std::sort(all.begin(), all.end(),
-            [&](const Task& a, const Task& b) { return first(a) < first(b); });
-  return all;
-}
-
-json described(const Task& task) {
-  const EngineOptions& kind = kindOf(task.engine);
-  json options = json::array({"force_feedback"});
-  if (kind.side) options.insert(options.end(), {"side", "patient_seed"});
-  if (task.engine == Engine::friction) options.push_back("sort");
-  return {{"id", task.id},
-          {"title", task.title},
-          {"engine", training::nameOf(task.engine)},
-          {"about", kind.about},
-          {"options", options},
-          {"assessable", true},
-          {"by_mouse", kind.person_by_mouse}};
-}
-
-std::vector<std::string> argumentsOf(const Console& c, const SessionWish& wish) {
-  const auto all = tasks();
-  const auto task =
-      std::find_if(all.begin(), all.end(), [&](const Task& one) { return one.id == wish.task; });
-  if (task == all.end())
-    throw UsageError("is not here", "task " + wish.task, "Choose one from the list");
+std::vector<std::string> sessionCommand(const Console& c, const SessionWish& wish) {
+  const TaskChoice task = taskChoice(wish.task);
   if (wish.performer == "person" && !c.place.display && stationOf(c.place).empty())
     throw UsageError("needs a window at the station, and there is no display",
                      "a person on the virtual bench", "Choose a simulated expert or novice");
-  std::vector<std::string> a{"train",
-                             "--task",
-                             task->file.string(),
-                             "--operator",
-                             wish.performer,
-                             "--trials",
-                             std::to_string(wish.trials),
-                             "--seed",
-                             std::to_string(wish.seed),
-                             "--force-feedback",
-                             wish.force_feedback ? "on" : "off"};
+  std::vector<std::string> a = argumentsOf(task, wish);
   if (wish.performer != "person" || !c.place.display) a.insert(a.end(), {"--display", "offscreen"});
   if (!wish.trainee.empty())
     a.insert(a.end(), {"--trainee", wish.trainee, "--records", c.place.records});
-  if (wish.assess) a.push_back("--assess");
-  if (wish.sort && task->engine == Engine::friction) a.push_back("--sort");
-  if (kindOf(task->engine).side) a.insert(a.end(), {"--side", wish.side});
-  if (kindOf(task->engine).side && wish.patient_seed > 0)
-    a.insert(a.end(), {"--patient-seed", std::to_string(wish.patient_seed)});
   if (const std::string chosen = stationOf(c.place); !chosen.empty())
     a.insert(a.end(), {"--station", chosen, "--bench-seed",
                        "1"});  // calibrated from here: with the bench's first seed
@@ -220,7 +134,7 @@ void finish(Console& c, const std::string& id, httplib::Response& response) {
 void addSessionRoutes(WebServer& server, Console& c) {
   server.Get("/api/tasks", [](const httplib::Request&, httplib::Response& r) {
     json all = json::array();
-    for (const Task& task : tasks()) all.push_back(described(task));
+    for (const TaskChoice& task : taskChoices()) all.push_back(described(task));
     answer(r, all);
   });
   server.Get("/api/sessions",
@@ -230,7 +144,7 @@ void addSessionRoutes(WebServer& server, Console& c) {
     wish.simulated = isSimulated(c, wish.performer);
     if (c.sessions.oneRuns())
       return refuse(r, 409, "a session is running already: end it first, or wait until it is over");
-    answer(r, {{"id", c.sessions.begin(wish, argumentsOf(c, wish))}}, 201);
+    answer(r, {{"id", c.sessions.begin(wish, sessionCommand(c, wish))}}, 201);
   });
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64}))",
              [&c](const httplib::Request& q, httplib::Response& r) {

@@ -21,7 +21,9 @@ struct SessionWish {
   std::string performer = "person";  ///< person, expert, novice
   std::string side = "right";
   bool assess = false, force_feedback = true;
-  bool sort = false;  ///< friction: several surfaces in order
+  bool sort = false;    ///< friction: several surfaces in order
+  int fingers = 1;      ///< palpation: that press
+  std::string surface;  ///< what lies on the virtual bench; empty: as the task has it
   int trials = 1;
   std::uint64_t seed = 1, patient_seed = 0;
   std::string protocol;    ///< of a study: its file; the task then follows from it

@@ -2,7 +2,9 @@
 import { list, post } from "./api.js";
 import { h } from "./dom.js";
 import { isOn, taskName } from "./format.js";
-import { choice, during, field, notice, radios, tick } from "./parts.js";
+import { choice, during, field, notice, offer, radios, tick } from "./parts.js";
+
+const kMostTrials = 50; // as the server takes them
 
 function whole(input, low, high, what) {
   const value = Number(input.value);
@@ -65,10 +67,14 @@ function form(tasks, trainees, me, chosenTrainee) {
       ["novice", "simulated novice", "Makes the common errors; marked as simulated."],
     ],
     me.display ? "person" : "expert",
+    () => follow(),
   );
   const force = tick("Force feedback", true, "Off: the needle is seen, not felt.");
   const order = tick("Put several in order", false, "Off: two surfaces are compared.");
-  const trials = number(1, 1, 100),
+  const fingers = tick("Two fingers", false, "On: side by side, each on a device of its own.");
+  const surface = choice([["", "as the task has it"]], "");
+  const surfaceField = field("What lies there", surface, "On the virtual bench: softer or firmer.");
+  const trials = number(1, 1, kMostTrials),
     patient = number(0, 0, 1000000),
     seed = number(1, 0, 1000000);
   const patientField = field(
@@ -83,6 +89,9 @@ function form(tasks, trainees, me, chosenTrainee) {
     side.node.hidden = !options.includes("side");
     order.node.hidden = !options.includes("sort");
     patientField.hidden = !options.includes("patient_seed");
+    fingers.node.hidden = !options.includes("fingers") || operator.value() === "person";
+    surfaceField.hidden = !now?.surfaces?.length;
+    offer(surface, [["", "as the task has it"], ...(now?.surfaces || []).map((s) => [s, s])]);
     const assess = kind.node.querySelector("input[value=assess]");
     assess.disabled = now?.assessable === false;
     if (assess.disabled && assess.checked)
@@ -98,8 +107,10 @@ function form(tasks, trainees, me, chosenTrainee) {
       assess: kind.value() === "assess",
       force_feedback: force.box.checked,
       sort: order.box.checked,
+      fingers: fingers.box.checked && !fingers.node.hidden ? 2 : 1,
+      surface: surface.value,
       operator: operator.value(),
-      trials: whole(trials, 1, 100, "Trials"),
+      trials: whole(trials, 1, kMostTrials, "Trials"),
       seed: whole(seed, 0, 1000000, "Seed"),
       side: side.value(),
       patient_seed: whole(patient, 0, 1000000, "Patient"),
@@ -127,7 +138,12 @@ function form(tasks, trainees, me, chosenTrainee) {
         operator.node,
       ),
     ),
-    h("div", { class: "grid two" }, kind.node, h("div", {}, side.node, force.node, order.node)),
+    h(
+      "div",
+      { class: "grid two" },
+      kind.node,
+      h("div", {}, side.node, force.node, order.node, fingers.node, surfaceField),
+    ),
     h(
       "details",
       {},

@@ -64,13 +64,16 @@ export function field(label, control, hint) {
   );
 }
 
+/** Other options in the same choice; what was chosen stays where it is among them. */
+export function offer(select, options, chosen = select.value) {
+  select.replaceChildren(...options.map(([value, word]) => h("option", { value }, word)));
+  const there = options.some(([value]) => value === chosen);
+  select.value = there ? chosen : (options[0]?.[0] ?? "");
+}
+
 export function choice(options, chosen) {
-  const select = h(
-    "select",
-    {},
-    options.map(([value, word]) => h("option", { value }, word)),
-  );
-  select.value = chosen ?? options[0]?.[0] ?? "";
+  const select = h("select");
+  offer(select, options, chosen);
   return select;
 }
 

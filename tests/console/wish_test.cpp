@@ -36,6 +36,8 @@ TEST(SessionWish, WhatIsAskedForIsTaken) {
                                    {"assess", true},
                                    {"force_feedback", false},
                                    {"sort", true},
+                                   {"fingers", 2},
+                                   {"surface", "oiled gel"},
                                    {"trials", 50},
                                    {"seed", 1'000'000'000},
                                    {"patient_seed", 7},
@@ -47,6 +49,8 @@ TEST(SessionWish, WhatIsAskedForIsTaken) {
   EXPECT_TRUE(wish.assess);
   EXPECT_FALSE(wish.force_feedback);
   EXPECT_TRUE(wish.sort);
+  EXPECT_EQ(wish.fingers, 2);
+  EXPECT_EQ(wish.surface, "oiled gel");
   EXPECT_EQ(wish.trials, 50);
   EXPECT_EQ(wish.seed, 1'000'000'000u);
   EXPECT_EQ(wish.patient_seed, 7u);
@@ -69,6 +73,8 @@ TEST(SessionWish, EveryBadWishIsRefusedInWords) {
       {"assess", {nullptr, 0, 1, "true", ""}},
       {"force_feedback", {nullptr, 0, 1, "on"}},
       {"sort", {nullptr, 0, 1, "on"}},
+      {"fingers", {nullptr, 0, 3, 1.5, "2", true}},
+      {"surface", {nullptr, 1, true, json::array()}},
       {"trials",
        {nullptr, 0, -1, 51, 1.0, 1.5, "1", true, 4294967297ll, -9223372036854775807ll,
         18446744073709551615ull, 1e300}},
