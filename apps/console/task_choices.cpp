@@ -51,6 +51,8 @@ bool takesFingers(const TaskChoice& task) {
   return task.engine == Engine::palpation && !task.curved && !task.real_lump;
 }
 
+bool takesPatient(const TaskChoice& task) { return kindOf(task).side && !task.block; }
+
 void requireSurface(const TaskChoice& task, const std::string& name) {
   const std::vector<std::string> known = surfacesOf(task);
   if (std::find(known.begin(), known.end(), name) == known.end())
@@ -67,8 +69,9 @@ std::vector<TaskChoice> taskChoices() {
     if (!file.has("engine") || !file.has("id") || !file.has("title")) continue;
     const std::optional<Engine> engine = training::engineNamed(file.text("engine"));
     if (!engine) continue;
+    const bool block = *engine == Engine::needle && file.has("phantom");
     all.push_back({file.text("id"), file.text("title"), *engine, entry.path(),
-                   file.has("phantom/shape"), file.has("real_lump")});
+                   file.has("phantom/shape"), block, file.has("real_lump")});
   }
   const auto first = [](const TaskChoice& task) {
     return std::pair(task.id != "paracentesis", task.id);
@@ -87,7 +90,7 @@ TaskChoice taskChoice(const std::string& id) {
 json described(const TaskChoice& task) {
   const EngineOptions& kind = kindOf(task);
   json options = json::array({"force_feedback"});
-  if (kind.side) options.insert(options.end(), {"side", "patient_seed"});
+  if (takesPatient(task)) options.insert(options.end(), {"side", "patient_seed"});
   if (task.engine == Engine::friction) options.push_back("sort");
   if (takesFingers(task)) options.push_back("fingers");
   return {{"id", task.id},
@@ -120,7 +123,7 @@ std::vector<std::string> argumentsOf(const TaskChoice& task, const SessionWish& 
     requireSurface(task, wish.surface);
     a.insert(a.end(), {"--surface", wish.surface});
   }
-  if (!kindOf(task).side) return a;
+  if (!takesPatient(task)) return a;
   a.insert(a.end(), {"--side", wish.side});
   if (wish.patient_seed > 0)
     a.insert(a.end(), {"--patient-seed", std::to_string(wish.patient_seed)});

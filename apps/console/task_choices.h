@@ -17,6 +17,7 @@ struct TaskChoice {
   training::Engine engine;
   std::filesystem::path file;
   bool curved = false;     ///< the top of its phantom
+  bool block = false;      ///< is punctured, no patient
   bool real_lump = false;  ///< a lump that lies in the phantom is felt or taken away
 };
 

@@ -22,9 +22,8 @@ bool has(const std::vector<std::string>& arguments, const std::string& one) {
 }
 
 bool offers(const std::string& task, const std::string& option) {
-  for (const auto& one : described(taskChoice(task)).at("options"))
-    if (one == option) return true;
-  return false;
+  const nlohmann::json all = described(taskChoice(task)).at("options");
+  return std::find(all.begin(), all.end(), option) != all.end();
 }
 
 std::size_t surfacesOf(const std::string& task) {
@@ -50,6 +49,8 @@ TEST(TaskChoices, WhatATaskCannotDoIsNotOffered) {
   EXPECT_FALSE(offers("palpation-neck", "fingers")) << "its top is curved";
   EXPECT_FALSE(offers("palpation-taken", "fingers"));
   EXPECT_FALSE(offers("paracentesis", "fingers"));
+  EXPECT_TRUE(offers("paracentesis", "patient_seed"));
+  EXPECT_FALSE(offers("bone_pin", "patient_seed")) << "a block is no patient";
   EXPECT_EQ(surfacesOf("palpation-breast"), 4u);
   EXPECT_EQ(surfacesOf("friction"), 4u);
   EXPECT_EQ(surfacesOf("pulse"), 4u);
