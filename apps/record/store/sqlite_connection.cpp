@@ -35,7 +35,7 @@ Beginning beginningOf(sqlite3* handle) {
   Beginning start;
   sqlite3_file* file = nullptr;
   if (sqlite3_file_control(handle, "main", SQLITE_FCNTL_FILE_POINTER, &file) != SQLITE_OK ||
-      file->pMethods->xFileSize(file, &start.size) != SQLITE_OK)
+      !file->pMethods || file->pMethods->xFileSize(file, &start.size) != SQLITE_OK)
     return {};  // the first statement says why
   file->pMethods->xRead(file, start.bytes, sizeof start.bytes, 0);
   return start;
