@@ -301,8 +301,7 @@ void addTrain(CLI::App& program) {
       "Examples:\n  palpa train --task assets/tasks/paracentesis.json --operator expert --fast\n  "
       "palpa train --task assets/tasks/palpation_prostate.json --operator expert --fast\n  palpa "
       "train --task assets/tasks/bone_pin.json --augment on --operator expert --fast\n  palpa "
-      "train "
-      "--task assets/tasks/palpation_breast.json --tools 2 --operator expert --fast");
+      "train --task assets/tasks/palpation_breast.json --tools 2 --operator expert --fast");
   command->add_option("--task", options->task, "Task file")
       ->required()
       ->type_name("FILE")

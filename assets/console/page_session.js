@@ -89,9 +89,12 @@ function form(tasks, trainees, me, chosenTrainee) {
     side.node.hidden = !options.includes("side");
     order.node.hidden = !options.includes("sort");
     patientField.hidden = !options.includes("patient_seed");
-    fingers.node.hidden = !options.includes("fingers") || operator.value() === "person";
-    surfaceField.hidden = !now?.surfaces?.length;
-    offer(surface, [["", "as the task has it"], ...(now?.surfaces || []).map((s) => [s, s])]);
+    // Only the virtual bench has a second device, and can have another thing on it.
+    fingers.node.hidden =
+      !me.simulated || !options.includes("fingers") || operator.value() === "person";
+    const surfaces = me.simulated ? (now?.surfaces ?? []) : [];
+    surfaceField.hidden = surfaces.length === 0;
+    offer(surface, [["", "as the task has it"], ...surfaces.map((s) => [s, s])]);
     const assess = kind.node.querySelector("input[value=assess]");
     assess.disabled = now?.assessable === false;
     if (assess.disabled && assess.checked)
