@@ -1,4 +1,4 @@
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "apps/bench/bench.h"
 #include "apps/bench/estimator_studies.h"
 #include "apps/bench/timing.h"
@@ -42,10 +43,9 @@ MatrixX cramerRaoBound(const Measurement& m) {
     const MatrixX N = derivative([&](const VectorX& e) { return m.constraint(i, no_dx, e); },
                                  m.noise_sd.size(), kStep) *
                       m.noise_sd.asDiagonal();
-    information += J.transpose() *
-                   MatrixX(N * N.transpose()).completeOrthogonalDecomposition().pseudoInverse() * J;
+    information += J.transpose() * pseudoInverse(N * N.transpose()) * J;
   }
-  return information.inverse();
+  return inverseOf(information);
 }
 
 StudyFigures figuresOf(const EstimatorStudy& study, int sets, double outliers) {

@@ -8,9 +8,8 @@
 #include <optional>
 #include <unordered_set>
 
-#include <Eigen/Eigenvalues>
-
 #include "anatomy/base/pinned_math.h"
+#include "anatomy/geometry/dense_solvers.h"
 
 namespace palpa::task_search {
 namespace {
@@ -146,9 +145,9 @@ Bend bendAt(const HeightField& h, const Vec2& p, double d) {
       (h(x + d, y + d) - h(x + d, y - d) - h(x - d, y + d) + h(x - d, y - d)) / (4 * d * d);
   Mat2 H;
   H << (l - 2 * c + r) / (d * d), xy, xy, (b - 2 * c + t) / (d * d);
-  const Eigen::SelfAdjointEigenSolver<Mat2> solver(H);
-  return {Vec2((r - l) / (2 * d), (t - b) / (2 * d)), solver.eigenvalues()[1],
-          solver.eigenvalues()[0], solver.eigenvectors().col(1)};
+  const SymmetricEigen<2> bend = symmetricEigen(H);
+  return {Vec2((r - l) / (2 * d), (t - b) / (2 * d)), bend.values[1], bend.values[0],
+          bend.vectors.col(1)};
 }
 
 std::optional<haptics::ValleyPoint> valleyFrom(const HeightField& h, const Vec2& seed,

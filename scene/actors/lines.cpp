@@ -12,8 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
+#include "anatomy/geometry/dense_solvers.h"
 #include "scene/palette.h"
 
 namespace palpa::scene {
@@ -71,14 +70,14 @@ std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, 
   J << camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()), 0, camera.fy / p.z(),
       -camera.fy * p.y() / (p.z() * p.z());
   const Mat3 S_C = X_CA.linear() * covariance_A * X_CA.linear().transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(J * S_C * J.transpose());
-  const Eigen::Vector2d half = (kChi2_2_95 * solver.eigenvalues().cwiseMax(0)).cwiseSqrt();
+  const SymmetricEigen<2> spread = symmetricEigen(J * S_C * J.transpose());
+  const Eigen::Vector2d half = (kChi2_2_95 * spread.values.cwiseMax(0)).cwiseSqrt();
   if (!(half[1] >= least_px)) return {};
   std::vector<Vec3> ellipse;
   for (int i = 0; i <= kCorners; ++i) {
     const double round = 2 * std::numbers::pi * i / kCorners;
-    const Eigen::Vector2d px = solver.eigenvectors() *
-                               half.cwiseProduct(Eigen::Vector2d(std::cos(round), std::sin(round)));
+    const Eigen::Vector2d px =
+        spread.vectors * half.cwiseProduct(Eigen::Vector2d(std::cos(round), std::sin(round)));
     ellipse.push_back(X_CA.inverse() *
                       (p + p.z() * Vec3(px.x() / camera.fx, px.y() / camera.fy, 0)));
   }

@@ -1,6 +1,5 @@
 #include "apps/bench/pictures/tracking_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/random.h"
 #include "anatomy/base/units.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "apps/twin/bench_truth.h"
 #include "apps/twin/virtual_camera.h"
 
@@ -85,7 +85,7 @@ Terms notNegative(const Eigen::Matrix<double, int(kTerms), int(kTerms)>& A, cons
       right[i] = b[in[std::size_t(i)]];
       for (Eigen::Index j = 0; j < n; ++j) part(i, j) = A(in[std::size_t(i)], in[std::size_t(j)]);
     }
-    const Eigen::VectorXd x = part.ldlt().solve(right);
+    const Eigen::VectorXd x = solveSymmetric(part, right);
     Eigen::Index worst = 0;
     if (x.minCoeff(&worst) >= 0) {
       Terms all = Terms::Zero();

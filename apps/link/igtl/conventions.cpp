@@ -1,8 +1,7 @@
 #include "apps/link/igtl/conventions.h"
 
-#include <Eigen/SVD>
-
 #include "anatomy/base/units.h"
+#include "anatomy/geometry/dense_solvers.h"
 
 namespace palpa::igt {
 namespace {
@@ -29,8 +28,8 @@ std::optional<Pose> fromWire(const Mat4& X_mm) {
     return std::nullopt;
   const Vec3 p_mm = X_mm.topRightCorner<3, 1>();
   if (p_mm.cwiseAbs().maxCoeff() > kFarthest_mm) return std::nullopt;
-  const Eigen::JacobiSVD<Mat3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return makePose(svd.matrixU() * svd.matrixV().transpose(), kMm * p_mm);
+  const SingularValues<3> svd = singularValues(R);
+  return makePose(svd.U * svd.V.transpose(), kMm * p_mm);
 }
 
 Pose rasInAnatomy() { return makePose(Vec3(-1, -1, 1).asDiagonal().toDenseMatrix(), Vec3::Zero()); }
