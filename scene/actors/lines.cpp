@@ -70,7 +70,7 @@ std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, 
   J << camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()), 0, camera.fy / p.z(),
       -camera.fy * p.y() / (p.z() * p.z());
   const Mat3 S_C = X_CA.linear() * covariance_A * X_CA.linear().transpose();
-  const SymmetricEigen<2> spread = symmetricEigen(J * S_C * J.transpose());
+  const SymmetricEigen<2> spread = symmetricEigen(Eigen::Matrix2d(J * S_C * J.transpose()));
   const Eigen::Vector2d half = (kChi2_2_95 * spread.values.cwiseMax(0)).cwiseSqrt();
   if (!(half[1] >= least_px)) return {};
   std::vector<Vec3> ellipse;
