@@ -82,7 +82,7 @@ bool LumpSearch::takeIn(Vec3* planned) const {
 
 /// As far as it matters: where nothing of it is felt any more, one place is like another.
 double LumpSearch::fromNormal(const Vec3& p_P) const {
-  constexpr double kFelt = 0.026;  // m
+  constexpr double kFelt = 0.030;  // m
   return skill_.knows_anatomy && phantom_.from_normal ? std::min(kFelt, phantom_.from_normal(p_P))
                                                       : kFelt;
 }
@@ -191,7 +191,11 @@ LumpSearch::Intent LumpSearch::decide() {
     const Vec3 felt_P = closer_.front().p_P;
     if (across(felt_P, *suspect_P_) < kOnTop) return dismiss();
     dismissed_P_.push_back(*suspect_P_);
-    pressAfresh(felt_P, skill_.again, Look::again);
+    pressAfresh(felt_P, skill_.again, Look::there);
+    return next();
+  }
+  if (look_ == Look::there && memory_.meanFirmness(fresh_) < skill_.marks_from) {
+    suspect_P_.reset();
     return next();
   }
   if (look_ != Look::confirm) {
