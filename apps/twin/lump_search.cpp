@@ -21,6 +21,9 @@ constexpr double kNoHill = 0.035, kClearHill = 0.06;
 constexpr std::size_t kLooksBack = 2;  // hills, at the end
 constexpr double kClearly = 0.12;      // ln of firmness: two standard deviations of a press
 constexpr double kSame = 0.008;        // m, of a place that was dismissed
+// Of what made the hand look closer: a small lump's hill is thought up to 6 mm off its top, where
+// half of it is felt
+constexpr double kFlank = 0.5;
 
 }  // namespace
 
@@ -182,22 +185,11 @@ bool LumpSearch::lookBack() {
   return true;
 }
 
-/// The presses of a look are done: was it chance, where is it firmest, is it a lump? A small lump's
-/// hill is thought up to 6 mm off its top: where there was nothing, on to the very place that was
-/// firm.
+/// The presses of a look are done: was it chance, where is it firmest, is it a lump?
 LumpSearch::Intent LumpSearch::decide() {
   constexpr double kOnTop = 2.4e-3;  // m
-  if (look_ == Look::again && memory_.meanFirmness(fresh_) < skill_.looks_closer) {
-    const Vec3 felt_P = closer_.front().p_P;
-    if (across(felt_P, *suspect_P_) < kOnTop) return dismiss();
-    dismissed_P_.push_back(*suspect_P_);
-    pressAfresh(felt_P, skill_.again, Look::there);
-    return next();
-  }
-  if (look_ == Look::there && memory_.meanFirmness(fresh_) < skill_.marks_from) {
-    suspect_P_.reset();
-    return next();
-  }
+  if (look_ == Look::again && memory_.meanFirmness(fresh_) < kFlank * skill_.looks_closer)
+    return dismiss();
   if (look_ != Look::confirm) {
     const bool begins = closer_.size() == 1;
     look_ = Look::climb;

@@ -56,9 +56,11 @@ class LumpSearch {
   const Vec3& apart() const { return apart_; }  ///< from the first finger to the second
 
  private:
-  /// Of a closer look: was it chance at the hill's top, was it where it had been firm, where is it
-  /// firmest, is it a lump
-  enum class Look { again, there, climb, confirm };
+  enum class Look {
+    again,
+    climb,
+    confirm
+  };  ///< of a closer look: was it chance, where is it firmest, is it a lump
   void planStrips();
   bool takeIn(Vec3* planned) const;
   bool lookCloser();
