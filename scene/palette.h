@@ -17,6 +17,9 @@ inline constexpr Rgb kClear{0, 0, 0};  ///< where a display is looked through
 inline constexpr Rgb kPanel{0.075, 0.085, 0.100};
 inline constexpr Rgb kBehindBottom{0.085, 0.100, 0.120};  ///< AR view without a picture
 inline constexpr Rgb kBehindTop{0.190, 0.220, 0.255};
+inline constexpr Rgb kTable{0.47, 0.52, 0.55};            ///< what a patient lies on
+inline constexpr Rgb kShadow{0.04, 0.03, 0.05};           ///< of a tool, on the skin
+inline constexpr Rgb kRing{0.99, 0.97, 0.90};             ///< about where a needle went in
 inline constexpr Rgba kPlate{0.035, 0.045, 0.060, 0.74};  ///< under text
 inline constexpr Rgb kText{0.96, 0.97, 0.98};
 inline constexpr Rgb kTextDim{0.66, 0.70, 0.75};

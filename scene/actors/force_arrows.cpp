@@ -68,7 +68,8 @@ void ForceArrows::update(const std::vector<ForceArrow>& forces, const Pose& X_CA
     const double length = kMetresPerNewton * std::min(newtons, kLongest);
     arrow.body->SetInputData(arrowShape(length, unit, 0, arrowColour(force.kind, colours_)));
     arrow.rim->SetInputData(arrowShape(length, unit, rim, arrowOutline(force.kind)));
-    copy(makePose(rotationWithZ(force.f_A / newtons), force.p_A), *arrow.X_A_arrow);
+    const Vec3 way = force.f_A / newtons;
+    copy(makePose(rotationWithZ(way), force.p_A + kGap * unit * way), *arrow.X_A_arrow);
     arrow.show(true);
   }
   for (std::size_t i = shown_; i < arrows_.size(); ++i) arrows_[i]->show(false);

@@ -17,7 +17,9 @@ namespace palpa::scene {
 class ForceArrows {
  public:
   static constexpr double kMetresPerNewton = 0.030;
-  static constexpr double kLongest = 4;     ///< newtons; stronger forces are drawn as this
+  static constexpr double kLongest = 4;  ///< newtons; stronger forces are drawn as this
+  /// Shaft widths between an arrow and what it acts on: a needle's tip is to be seen
+  static constexpr double kGap = 1.6;
   static constexpr double kWeakest = 0.02;  ///< newtons; weaker ones are not drawn
 
   explicit ForceArrows(vtkRenderer& renderer, ForceColours colours = ForceColours::paper);

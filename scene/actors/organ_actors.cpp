@@ -25,6 +25,8 @@
 namespace palpa::scene {
 namespace {
 
+constexpr double kSilicone = 0.5;  // opacity of a block, whose shape is to be seen, too
+
 double translucentOpacity(Organ organ) {
   if (organ == Organ::skin) return 0.28;
   return organ == Organ::muscle ? 0.24 : 1;
@@ -78,6 +80,16 @@ vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyDat
   return actor;
 }
 
+/// The far walls alone, as they look from inside.
+vtkSmartPointer<vtkActor> innerSideOf(const anatomy::OrganSurface& organ, vtkPolyData* surface) {
+  vtkSmartPointer<vtkActor> actor = actorOf(organ, surface);
+  actor->GetProperty()->FrontfaceCullingOn();
+  actor->GetProperty()->SetAmbient(0.52);  // light comes in from everywhere
+  actor->GetProperty()->SetDiffuse(0.40);
+  actor->GetProperty()->SetSpecular(0);
+  return actor;
+}
+
 }  // namespace
 
 bool coversOrgans(Organ organ) { return organ == Organ::skin || organ == Organ::muscle; }
@@ -120,6 +132,10 @@ OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient,
     if (coversOrgans(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
     renderer.AddActor(part.actor);
     parts_.push_back(std::move(part));
+  }
+  if (glass_ && patient.organs.size() == 1 && skin_) {
+    inner_side_ = innerSideOf(patient.organs.front(), skin_);
+    renderer.AddActor(inner_side_);
   }
   apply();
 }
@@ -169,10 +185,12 @@ void OrganActors::apply() {
     const bool hidden = (coversOrgans(part.organ) && style_ == SkinStyle::hidden) ||
                         (part.organ != Organ::skin && !inside_);
     part.actor->SetVisibility(visible_ && !hidden);
-    const double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;
+    double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;
+    if (inner_side_) opacity = std::max(opacity, kSilicone);
     part.actor->GetProperty()->SetOpacity(opacity);
     moveTo(opacity < 1, part);
   }
+  if (inner_side_) inner_side_->SetVisibility(visible_ && style_ == SkinStyle::translucent);
 }
 
 vtkSmartPointer<vtkActor> skinSection(const anatomy::Patient& patient, const Vec3& p_A,

@@ -29,7 +29,8 @@ bool coversOrgans(Organ organ);
 /// The patient's surfaces as actors: organs opaque, and what covers them (skin, muscle) in the
 /// chosen style. A surface with a picture shows that, multiplied by its colour. What is translucent
 /// goes into `glass`, where there is one; without, VTK's order-independent blending draws it, which
-/// is right for a single layer.
+/// is right for a single layer. A block of one skin and nothing in it has, where that is
+/// translucent, an inner side: one looks into silicone, not through it.
 class OrganActors {
  public:
   OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass = nullptr);
@@ -57,6 +58,7 @@ class OrganActors {
   Glass* glass_;
   std::vector<OrganPart> parts_;
   vtkSmartPointer<vtkPolyData> skin_;
+  vtkSmartPointer<vtkActor> inner_side_;  // null: there are organs to be seen
   SkinStyle style_ = SkinStyle::translucent;
   bool visible_ = true, inside_ = true, moved_ = false;
   vtkNew<vtkMatrix4x4> X_AB_;

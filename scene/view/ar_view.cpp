@@ -52,6 +52,7 @@ SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& 
   behind_->SetBackground2(first_behind_.GetBackground2());
   glass_->EraseOff();
   on_skin_->EraseOff();
+  prepareSmoothing(*on_skin_);
   above_->SetLayer(first_above_.GetLayer());
 }
 
@@ -68,6 +69,7 @@ void SecondEye::mirror() {
   behind_->SetTexturedBackground(first_behind_.GetTexturedBackground());
   behind_->SetGradientBackground(first_behind_.GetGradientBackground());
   on_skin_->SetDraw(first_on_skin_.GetDraw());
+  on_skin_->SetUseFXAA(first_on_skin_.GetUseFXAA());
   above_->SetDraw(first_above_.GetDraw());
 }
 
@@ -100,6 +102,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       see_through_(layout.see_through),
       orbit_(defaultView(patient, region)),
       backdrop_(*renderer_, true),
+      table_(*renderer_, patient),
       glass_((window.AddRenderer(renderer_), window), *renderer_),
       organs_(*renderer_, patient, &glass_),
       instrument_(*renderer_),
@@ -107,6 +110,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       arrows_(*above_, layout.force_colours),
       guide_(*above_, colour::kAdvice, 2.5),
       ellipse_(*above_, colour::kAdvice, 1.8),
+      shadows_(*on_skin_, patient),
       search_(*on_skin_, *above_, 2.5),
       occluders_(*renderer_) {
   organs_.setInside(layout.inside);
@@ -127,6 +131,7 @@ void ArView::setUpRenderers() {
     window_.AddRenderer(renderer);
   }
   on_skin_->EraseOff();  // over the colours and depths so far
+  prepareSmoothing(*on_skin_);
   above_->SetLayer(1);
   renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
 }
@@ -226,6 +231,8 @@ void ArView::showLines(const SceneState& state, bool visible) {
 
 void ArView::showPatient(const SceneState& state, bool visible) {
   if (skin_) skin_->update(state.skin_push);
+  table_.setVisible(visible && virtual_ && !see_through_);
+  shadows_.update(state, visible);
   organs_.setStyle(state.skin);
   organs_.setVisible(visible);
   organs_.setPose(state.X_AB);
@@ -245,7 +252,10 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   showLines(state, visible);
   occluders_.update(state.occluders, visible && state.picture != nullptr);
   search_.update(state, visible, {X_CA_, pinhole_.fx}, kPin_px * window_height_ / 720.0);
-  on_skin_->SetDraw(search_.anyOnSkin());
+  // A camera's picture stays pixel for pixel what it is.
+  const bool smooth = state.picture == nullptr && !see_through_;
+  on_skin_->SetUseFXAA(smooth);
+  on_skin_->SetDraw(smooth || search_.anyOnSkin() || shadows_.any());
   above_->SetDraw(search_.anyAbove() || arrows_.any() || ellipse_.visible() || guide_.visible());
 }
 

@@ -10,6 +10,8 @@
 #include "scene/actors/lines.h"
 #include "scene/actors/organ_actors.h"
 #include "scene/actors/search_overlay.h"
+#include "scene/actors/table.h"
+#include "scene/actors/tool_shadow.h"
 #include "scene/panels.h"
 #include "scene/view/ar_camera.h"
 #include "scene/view/framing.h"
@@ -111,6 +113,7 @@ class ArView {
   Pinhole pinhole_;
   Pose X_CA_ = Pose::Identity();
   Backdrop backdrop_;
+  Table table_;
   Glass glass_;
   OrganActors organs_;
   std::unique_ptr<DeflectedSkin> skin_;  // null: it does not give way
@@ -118,6 +121,7 @@ class ArView {
   vtkSmartPointer<vtkActor> trail_;
   ForceArrows arrows_;
   EdgedLines guide_, ellipse_;
+  ToolShadows shadows_;
   SearchOverlay search_;
   Occluders occluders_;
   std::unique_ptr<SecondEye>

@@ -179,8 +179,10 @@ TEST_F(HeldTool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
   view.show(state);
   const Image with = view.capture();
   const Eigen::Vector2d base = project(state.camera, state.X_CA * state.forces[0].p_A);
-  const Eigen::Vector2d head = project(
+  Eigen::Vector2d head = project(
       state.camera, state.X_CA * (state.forces[0].p_A + ForceArrows::kMetresPerNewton * f_A));
+  constexpr double kShaft_px = 5 * 240 / 720.0;
+  head += ForceArrows::kGap * kShaft_px * (head - base).normalized();
   Eigen::Vector2d farthest = base;
   for (int v = 0; v < 200; ++v) {  // the legend is below
     for (int u = 0; u < 320; ++u) {

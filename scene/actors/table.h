@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "anatomy/patient.h"
+#include "scene/actors/surface_map.h"
+
+class vtkRenderer;
+
+namespace palpa::scene {
+
+/// How much light a table loses where things stand on it, for light from the whole sky. Texels of a
+/// square, row by row; 0: none, 1: all.
+struct GroundShade {
+  int texels = 0;
+  std::vector<float> dark;
+  float at(int column, int row) const {
+    return dark[static_cast<std::size_t>(row) * static_cast<std::size_t>(texels) +
+                static_cast<std::size_t>(column)];
+  }
+};
+
+/// What these meshes (A, m) take from the plane y = `table_y`, in the square of `half` about
+/// `middle` (x, z): their outline from above, blurred as wide as they are high, and darker where
+/// they touch. A picture of a shadow, not a computation of light: what the eye takes as standing on
+/// a table needs no more (Kersten, Mamassian and Knill 1997).
+GroundShade groundShade(const std::vector<const anatomy::TriangleMesh*>& meshes, double table_y,
+                        const Eigen::Vector2d& middle, double half);
+
+/// What a patient lies on where there is no camera's picture: a plane through the lowest point
+/// (up is -y of A), with the shadow; it fades out into the background.
+class Table {
+ public:
+  Table(vtkRenderer& renderer, const anatomy::Patient& patient);
+  void setVisible(bool visible) { sheet_.setVisible(visible); }
+
+ private:
+  PictureSheet sheet_;
+};
+
+}  // namespace palpa::scene

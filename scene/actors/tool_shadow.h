@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vtkNew.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "anatomy/patient.h"
+#include "anatomy/query/triangle_tree.h"
+#include "scene/actors/lines.h"
+#include "scene/scene_state.h"
+
+class vtkActor;
+class vtkPolyData;
+class vtkRenderer;
+
+namespace palpa::scene {
+
+/// Where light comes from, in A, unit: from above (-y of a patient who lies on the back), a little
+/// from the head and from the side that is not punctured, so that a shadow lies beside what casts
+/// it.
+Vec3 towardLight(anatomy::Side punctured);
+
+/// A cross-section of a tool: m behind its tip, and how thick it is there.
+struct ToolSection {
+  double behind = 0, radius = 0;
+};
+/// From the tip on.
+std::vector<ToolSection> sectionsOf(Tool tool);
+
+/// The shadow of one section on the skin.
+struct ShadowPlace {
+  Vec3 p_A = Vec3::Zero(), n_A = Vec3::Zero();
+  double half_width = 0;  ///< m, where nothing is left of it
+  double dark = 0;        ///< 0 to 1, in its middle
+};
+/// None for what is inside, and where there is no skin below.
+std::vector<std::optional<ShadowPlace>> shadowOf(Tool tool, const Pose& X_AT,
+                                                 const anatomy::TriangleTree& skin,
+                                                 const Vec3& toward_light);
+
+/// Where a needle whose tip is inside went through the skin, and the outward normal there.
+struct EntryPlace {
+  Vec3 p_A, n_A;
+};
+std::optional<EntryPlace> entryOf(const Pose& X_AT, const anatomy::TriangleTree& skin);
+
+/// What tools cast on the skin, and a ring where a needle went in. Both say in one picture how far
+/// off the skin a tip is, or how far behind it: where tip and shadow meet, it touches. Light is
+/// that of a broad lamp: the farther the tool, the wider and paler.
+class ToolShadows {
+ public:
+  /// A patient without skin has no shadows.
+  ToolShadows(vtkRenderer& on_skin, const anatomy::Patient& patient);
+  ~ToolShadows();
+
+  void update(const SceneState& state, bool visible);
+  bool any() const;
+
+ private:
+  class Ribbon;
+  Vec3 toward_light_;
+  std::unique_ptr<anatomy::TriangleTree> skin_;
+  std::vector<std::unique_ptr<Ribbon>> ribbons_;
+  EdgedLines ring_;
+};
+
+}  // namespace palpa::scene

@@ -1,0 +1,120 @@
+#include "scene/actors/tool_shadow.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "anatomy/parametric/phantoms.h"
+#include "scene/actors/instrument.h"
+#include "scene/actors/table.h"
+#include "tests/scene/offscreen.h"
+
+namespace palpa::scene {
+namespace {
+
+/// A flat block of 120 x 100 x 30 mm whose top is y = 0, up is -y.
+const anatomy::Patient& block() {
+  static const anatomy::Patient patient = anatomy::phantomBlock({0.12, 0.10, 0.03}, "block");
+  return patient;
+}
+
+const anatomy::TriangleTree& skin() {
+  static const anatomy::TriangleTree tree(block().organs.front().mesh);
+  return tree;
+}
+
+const Vec3& light() {
+  static const Vec3 toward = towardLight(anatomy::Side::right);
+  return toward;
+}
+
+/// A needle `height` above the block's top at (x, z), that points down and to one side.
+Pose above(double x, double height, double z) {
+  return makePose(rotationWithZ(Vec3(0.5, 1, 0.2).normalized()), Vec3(x, -height, z));
+}
+
+TEST(ToolShadow, OfATipLiesWhereLightThroughItMeetsTheSkin) {
+  for (const double height : {0.001, 0.010, 0.040}) {
+    const Pose X_AT = above(0.005, height, -0.004);
+    const auto places = shadowOf(Tool::needle, X_AT, skin(), light());
+    ASSERT_EQ(places.size(), sectionsOf(Tool::needle).size());
+    ASSERT_TRUE(places.front());
+    const Vec3 expected = X_AT.translation() + height / light().y() * light();
+    EXPECT_NEAR((places.front()->p_A - expected).norm(), 0, 1e-9) << height;
+    EXPECT_NEAR((places.front()->n_A - Vec3(0, -1, 0)).norm(), 0, 1e-6);
+  }
+}
+
+TEST(ToolShadow, IsNarrowAndDarkNearTheSkin) {
+  const auto near = shadowOf(Tool::needle, above(0, 0.001, 0), skin(), light()).front(),
+             far = shadowOf(Tool::needle, above(0, 0.040, 0), skin(), light()).front();
+  ASSERT_TRUE(near && far);
+  EXPECT_LT(near->half_width, 0.5 * far->half_width);
+  EXPECT_GT(near->dark, 1.5 * far->dark);
+}
+
+TEST(ToolShadow, WhatIsInsideCastsNone) {
+  const auto places = shadowOf(Tool::needle, above(0, -0.010, 0), skin(), light());
+  EXPECT_FALSE(places.front());
+  EXPECT_TRUE(places[8]) << "32 mm behind the tip it is outside";
+}
+
+TEST(ToolShadow, BesideTheBlockThereIsNone) {
+  for (const auto& place : shadowOf(Tool::probe, above(0.5, 0.01, 0), skin(), light())) EXPECT_FALSE(place);
+}
+
+TEST(ToolShadow, TheRingIsWhereTheNeedleWentIn) {
+  const Pose X_AT = above(0.003, -0.012, 0.002);
+  const auto entry = entryOf(X_AT, skin());
+  ASSERT_TRUE(entry);
+  const Vec3 way = X_AT.linear().col(2);
+  const Vec3 expected = X_AT.translation() - 0.012 / way.y() * way;
+  EXPECT_NEAR((entry->p_A - expected).norm(), 0, 1e-9);
+  EXPECT_FALSE(entryOf(above(0, 0.002, 0), skin())) << "it is still outside";
+}
+
+TEST(GroundShade, IsDarkUnderTheThingAndAtItsFootAndNothingFarOff) {
+  const double half = 0.25;
+  const GroundShade shade =
+      groundShade({&block().organs.front().mesh}, 0.03, Eigen::Vector2d(0, 0), half);
+  const auto at = [&](double x, double z) {
+    const auto texel = [&](double p) {
+      return static_cast<int>((p + half) / (2 * half) * shade.texels);
+    };
+    return shade.at(texel(x), texel(z));
+  };
+  EXPECT_GT(at(0, 0), 0.5F);
+  EXPECT_GT(at(0.062, 0), 0.2F);
+  EXPECT_LT(at(0.062, 0), at(0, 0));
+  EXPECT_LT(at(0.085, 0), at(0.062, 0));
+  EXPECT_LT(at(0.2, 0.2), 0.01F);
+}
+
+/// The block's far edge, turned 5 degrees from the rows: without smoothing there are two levels.
+TEST(Edges, AreDrawnInManyLevels) {
+  SceneState state;
+  state.registered = true;
+  state.camera = {320, 240, 500, 500, 159.5, 119.5};
+  state.show_tool = false;
+  state.skin = SkinStyle::solid;
+  const double turn = 5 * std::numbers::pi / 180;
+  const Pose X_CA = lookAt({0, -0.4, 0.05}, {0, 0, 0.05});
+  state.X_CA = makePose(Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero()) *
+               X_CA;
+  const ViewLayout layout{320, 240, FixedViews::none};
+  SceneView view(offscreen(), block(), layout);
+  view.show(state);
+  const Image image = view.capture();
+  std::set<int> levels;
+  for (int u = 130; u < 190; ++u)
+    for (int v = 1; v + 1 < image.height; ++v) {
+      const int here = at(image, u, v).r, up = at(image, u, v - 1).r, down = at(image, u, v + 1).r;
+      if (std::abs(up - down) > 30 && here != up && here != down) levels.insert(here);
+    }
+  EXPECT_GE(levels.size(), 8u);
+}
+
+}  // namespace
+}  // namespace palpa::scene
