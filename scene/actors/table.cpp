@@ -80,8 +80,8 @@ GroundShade groundShade(const std::vector<const anatomy::TriangleMesh*>& meshes,
         highest = std::max(highest, table_y - corners[i].y());
       }
       forCovered(square, corners, [&](int column, int row) {
-        const std::size_t at = static_cast<std::size_t>(row) * kTexels +
-                               static_cast<std::size_t>(column);
+        const std::size_t at =
+            static_cast<std::size_t>(row) * kTexels + static_cast<std::size_t>(column);
         outline[at] = 1;
         if (above < kTouches) touching[at] = 1;
       });

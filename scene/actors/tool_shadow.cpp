@@ -22,9 +22,9 @@
 namespace palpa::scene {
 namespace {
 
-constexpr double kFarthest = 0.3;     // m: of light that a tool stops
-constexpr double kLamp = 0.05;        // half-width of the penumbra to the distance
-constexpr double kThinnest = 0.0009;  // m, half-width: a needle's shadow is to be seen
+constexpr double kFarthest = 0.3;               // m: of light that a tool stops
+constexpr double kLamp = 0.05;                  // half-width of the penumbra to the distance
+constexpr double kThinnest = 0.0009;            // m, half-width: a needle's shadow is to be seen
 constexpr double kDark = 0.62, kPales = 0.045;  // at the skin; m, where half of it is left
 constexpr double kOverSkin = 0.0004;            // m, above what lies on the skin
 constexpr int kMostCrossings = 16;
@@ -66,8 +66,8 @@ std::vector<ToolSection> sectionsOf(Tool tool) {
   }
   const ProbeSize size;
   for (const double share : {0.0, 0.05, 0.15, 0.3, 0.5, 0.75, 1.0})
-    sections.push_back({share * size.tip_radius,
-                        size.tip_radius * std::sqrt(1 - (1 - share) * (1 - share))});
+    sections.push_back(
+        {share * size.tip_radius, size.tip_radius * std::sqrt(1 - (1 - share) * (1 - share))});
   addEvenly(1.6 * size.tip_radius, -size.shaft_end, size.shaft_radius, 0.008, &sections);
   addEvenly(-size.shaft_end + 0.006, -size.handle_end, size.handle_radius, 0.012, &sections);
   return sections;
@@ -151,8 +151,7 @@ class ToolShadows::Ribbon {
       const Vec3 p = place.p_A + kPlaces[k] * place.half_width * side + kOverSkin * place.n_A;
       points_->InsertNextPoint(p.data());
       const Rgb& ink = colour::kShadow;
-      colours_->InsertNextTuple4(255 * ink[0], 255 * ink[1], 255 * ink[2],
-                                 255 * kInk[k] * dark);
+      colours_->InsertNextTuple4(255 * ink[0], 255 * ink[1], 255 * ink[2], 255 * kInk[k] * dark);
     }
   }
 
@@ -207,7 +206,8 @@ void ToolShadows::update(const SceneState& state, bool visible) {
   for (const auto& ribbon : ribbons_) ribbon->hide();
   if (!visible) return;
   ribbons_[0]->show(shadowOf(state.tool, state.X_AT, *skin_, toward_light_));
-  if (state.second_X_AT) ribbons_[1]->show(shadowOf(Tool::probe, *state.second_X_AT, *skin_, toward_light_));
+  if (state.second_X_AT)
+    ribbons_[1]->show(shadowOf(Tool::probe, *state.second_X_AT, *skin_, toward_light_));
   if (state.tool != Tool::needle) return;
   if (const auto entry = entryOf(state.X_AT, *skin_)) ring_.show({ringAbout(*entry)});
 }

@@ -62,7 +62,8 @@ TEST(ToolShadow, WhatIsInsideCastsNone) {
 }
 
 TEST(ToolShadow, BesideTheBlockThereIsNone) {
-  for (const auto& place : shadowOf(Tool::probe, above(0.5, 0.01, 0), skin(), light())) EXPECT_FALSE(place);
+  for (const auto& place : shadowOf(Tool::probe, above(0.5, 0.01, 0), skin(), light()))
+    EXPECT_FALSE(place);
 }
 
 TEST(ToolShadow, TheRingIsWhereTheNeedleWentIn) {
@@ -101,8 +102,8 @@ TEST(Edges, AreDrawnInManyLevels) {
   state.skin = SkinStyle::solid;
   const double turn = 5 * std::numbers::pi / 180;
   const Pose X_CA = lookAt({0, -0.4, 0.05}, {0, 0, 0.05});
-  state.X_CA = makePose(Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero()) *
-               X_CA;
+  state.X_CA =
+      makePose(Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero()) * X_CA;
   const ViewLayout layout{320, 240, FixedViews::none};
   SceneView view(offscreen(), block(), layout);
   view.show(state);
