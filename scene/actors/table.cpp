@@ -138,6 +138,7 @@ Table::Table(vtkRenderer& renderer, const anatomy::Patient& patient) : sheet_(re
   });
   const GroundShade shade = groundShade(skins, y, middle, half);
   sheet_.dye(shade.texels, shade.texels, pictureOf(shade));
+  laid_ = true;
 }
 
 }  // namespace palpa::scene

@@ -33,10 +33,11 @@ GroundShade groundShade(const std::vector<const anatomy::TriangleMesh*>& meshes,
 class Table {
  public:
   Table(vtkRenderer& renderer, const anatomy::Patient& patient);
-  void setVisible(bool visible) { sheet_.setVisible(visible); }
+  void setVisible(bool visible) { sheet_.setVisible(visible && laid_); }
 
  private:
   PictureSheet sheet_;
+  bool laid_ = false;  ///< there is something that can lie on it
 };
 
 }  // namespace palpa::scene
