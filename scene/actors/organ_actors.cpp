@@ -160,6 +160,12 @@ void OrganActors::setInside(bool shown) {
   apply();
 }
 
+void OrganActors::setWalls(bool shown) {
+  if (shown == walls_) return;
+  walls_ = shown;
+  apply();
+}
+
 void OrganActors::setPose(const Pose& X_AB) {
   if (!moved_ && X_AB.matrix().isIdentity(0)) return;
   copy(X_AB, *X_AB_);
@@ -186,11 +192,12 @@ void OrganActors::apply() {
                         (part.organ != Organ::skin && !inside_);
     part.actor->SetVisibility(visible_ && !hidden);
     double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;
-    if (inner_side_) opacity = std::max(opacity, kSilicone);
+    if (inner_side_ && walls_) opacity = std::max(opacity, kSilicone);
     part.actor->GetProperty()->SetOpacity(opacity);
     moveTo(opacity < 1, part);
   }
-  if (inner_side_) inner_side_->SetVisibility(visible_ && style_ == SkinStyle::translucent);
+  if (inner_side_)
+    inner_side_->SetVisibility(visible_ && walls_ && style_ == SkinStyle::translucent);
 }
 
 vtkSmartPointer<vtkActor> skinSection(const anatomy::Patient& patient, const Vec3& p_A,

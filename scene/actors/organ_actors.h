@@ -29,8 +29,7 @@ bool coversOrgans(Organ organ);
 /// The patient's surfaces as actors: organs opaque, and what covers them (skin, muscle) in the
 /// chosen style. A surface with a picture shows that, multiplied by its colour. What is translucent
 /// goes into `glass`, where there is one; without, VTK's order-independent blending draws it, which
-/// is right for a single layer. A block of one skin and nothing in it has, where that is
-/// translucent, an inner side: one looks into silicone, not through it.
+/// is right for a single layer.
 class OrganActors {
  public:
   OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass = nullptr);
@@ -39,6 +38,9 @@ class OrganActors {
   void setStyle(SkinStyle style);
   void setVisible(bool visible);
   void setInside(bool shown);  ///< all but the skin
+  /// Of a block of one skin with nothing in it: where that is translucent one looks into silicone,
+  /// at its far walls, not through it at what is behind.
+  void setWalls(bool shown);
   /// Where the body is that was made in A: a thing that is held moves. Only what is not translucent
   void setPose(const Pose& X_AB);
   /// The first skin's points as they are drawn; null without one
@@ -60,7 +62,7 @@ class OrganActors {
   vtkSmartPointer<vtkPolyData> skin_;
   vtkSmartPointer<vtkActor> inner_side_;  // null: there are organs to be seen
   SkinStyle style_ = SkinStyle::translucent;
-  bool visible_ = true, inside_ = true, moved_ = false;
+  bool visible_ = true, inside_ = true, walls_ = false, moved_ = false;
   vtkNew<vtkMatrix4x4> X_AB_;
 };
 

@@ -234,6 +234,7 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   table_.setVisible(visible && virtual_ && !see_through_);
   shadows_.update(state, visible);
   organs_.setStyle(state.skin);
+  organs_.setWalls(state.picture == nullptr && !see_through_);  // else one sees the real thing
   organs_.setVisible(visible);
   organs_.setPose(state.X_AB);
   other_probe_.update(state.second_X_AT.value_or(state.X_AT), 0, 0, Tissue::air);

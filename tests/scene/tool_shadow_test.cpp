@@ -93,6 +93,20 @@ TEST(GroundShade, IsDarkUnderTheThingAndAtItsFootAndNothingFarOff) {
   EXPECT_LT(at(0.2, 0.2), 0.01F);
 }
 
+/// A real block is seen through its overlay.
+TEST(Walls, AreNotDrawnOverACamerasPicture) {
+  SceneView view(offscreen(), block(), {320, 240, FixedViews::none});
+  const auto middleOn = [&](const Image* picture) {
+    SceneState state = straightOn(picture ? *picture : Image());
+    state.picture = picture;
+    view.show(state);
+    return at(view.capture(), 160, 120).g;
+  };
+  const Image dark = plain(320, 240, 20), bright = plain(320, 240, 220);
+  EXPECT_GT(middleOn(&bright) - middleOn(&dark), 100);
+  EXPECT_GT(middleOn(nullptr), 120) << "without a picture, silicone";
+}
+
 /// The block's far edge, turned 5 degrees from the rows: without smoothing there are two levels.
 TEST(Edges, AreDrawnInManyLevels) {
   SceneState state;
