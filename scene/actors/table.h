@@ -22,9 +22,8 @@ struct GroundShade {
 };
 
 /// What these meshes (A, m) take from the plane y = `table_y`, in the square of `half` about
-/// `middle` (x, z): their outline from above, blurred as wide as they are high, and darker where
-/// they touch. A picture of a shadow, not a computation of light: what the eye takes as standing on
-/// a table needs no more (Kersten, Mamassian and Knill 1997).
+/// `middle` (x, z): their outline from above, blurred by a third of their height, and darker where
+/// they touch. A picture of a shadow, [chosen] by eye, not a computation of light.
 GroundShade groundShade(const std::vector<const anatomy::TriangleMesh*>& meshes, double table_y,
                         const Eigen::Vector2d& middle, double half);
 

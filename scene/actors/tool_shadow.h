@@ -47,8 +47,9 @@ struct EntryPlace {
 std::optional<EntryPlace> entryOf(const Pose& X_AT, const anatomy::TriangleTree& skin);
 
 /// What tools cast on the skin, and a ring where a needle went in. Both say in one picture how far
-/// off the skin a tip is, or how far behind it: where tip and shadow meet, it touches. Light is
-/// that of a broad lamp: the farther the tool, the wider and paler.
+/// off the skin a tip is, or how far behind it: where tip and shadow meet, it touches (the eye
+/// takes height from the gap: Kersten, Mamassian and Knill 1997). Light is that of a broad lamp:
+/// the farther the tool, the wider and paler.
 class ToolShadows {
  public:
   /// A patient without skin has no shadows.
