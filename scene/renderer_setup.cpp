@@ -1,14 +1,12 @@
 #include "scene/renderer_setup.h"
 
 #include <vtkActor.h>
-#include <vtkCullerCollection.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
-#include <vtkPolyData.h>
 #include <vtkRenderer.h>
 
 namespace palpa::scene {
@@ -52,17 +50,6 @@ void setUpRenderer(vtkRenderer& renderer, const Rgb& background) {
   light->SetPosition(-0.35, 0.45, 1);  // in units of the view: right, up, toward the viewer
   light->SetFocalPoint(0, 0, 0);
   renderer.AddLight(light);
-}
-
-void prepareSmoothing(vtkRenderer& renderer) {
-  // VTK smooths where a renderer has something to draw: this is nothing, and always in sight.
-  vtkNew<vtkPolyData> nothing;
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(nothing);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  renderer.GetCullers()->RemoveAllItems();
-  renderer.AddActor(actor);
 }
 
 void setViewport(vtkRenderer& renderer, const Rect& where, int window_width, int window_height) {

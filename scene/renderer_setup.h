@@ -24,10 +24,6 @@ namespace palpa::scene {
 /// Plain background and one light over the viewer's left shoulder, so that round things look round.
 void setUpRenderer(vtkRenderer& renderer, const Rgb& background);
 
-/// With UseFXAA it will smooth what is jagged in its part of the window, of all that was drawn
-/// there before (Lottes 2009), even if it has nothing to draw itself; alpha is lost.
-void prepareSmoothing(vtkRenderer& renderer);
-
 /// Exactly these pixels of the window.
 void setViewport(vtkRenderer& renderer, const Rect& where, int window_width, int window_height);
 

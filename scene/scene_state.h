@@ -25,6 +25,15 @@ struct Pinhole {
   double fx = 600, fy = 600, cx = 319.5, cy = 239.5;
 };
 
+/// What a camera makes of what it sees, measured in its picture; levels and grain of 1.
+struct CameraLook {
+  double blur_px = 0;  ///< sigma of a Gaussian, pixels of the picture
+  std::array<double, 3> black{0, 0, 0}, white{1, 1, 1};  ///< of black and of white things
+  double grain_black = 0, grain_white = 0;  ///< standard deviation of a pixel at these levels
+  double grain_neighbours = 0;  ///< correlation of a pixel's grain with the next one's, to 0.5
+  double grain_colour = 1;      ///< 0: alike in all channels; 1: each has its own
+};
+
 /// A camera of one eye.
 struct EyeCamera {
   Pinhole camera;
@@ -153,6 +162,7 @@ struct SceneState {
   const Image* picture = nullptr;  ///< undistorted camera picture; null: plain background
   const Image* beside = nullptr;   ///< what the inset shows; null: `picture`
   Pinhole camera;
+  CameraLook look;          ///< that the overlay takes
   bool registered = false;  ///< X_CA is valid
   Pose X_CA = Pose::Identity();
   /// left and right, for a stereo view; empty: derived from the one camera

@@ -218,6 +218,7 @@ void TrialScene::finish(std::int64_t now_ns) {
   follow(now_ns);
   composeAll();
   if (stage_.views != Views::none) keepPictures();
+  writer_.finish();
 }
 
 void TrialScene::follow(std::int64_t now_ns) {
@@ -292,9 +293,23 @@ void TrialScene::informOperator(std::int64_t now_ns) {
   bus_.scene_to_operator.publish(displayed, now_ns + stage_.display_latency_ns);
 }
 
+/// In the picture without distortion, a hand's length around; nowhere: all of it.
+cv::Rect TrialScene::placeOfBoard() const {
+  constexpr double kAround = 0.12;
+  const Vec3 middle = X_CW_.translation();
+  if (!registered_ || middle.z() < kAround) return {};
+  const scene::Pinhole& p = state_.camera;
+  const double u = p.fx * middle.x() / middle.z() + p.cx, v = p.fy * middle.y() / middle.z() + p.cy;
+  const double half = p.fx * kAround / middle.z();
+  return {int(u - half), int(v - half), int(2 * half), int(2 * half)};
+}
+
 void TrialScene::render() {
   if (fresh_picture_ && camera_ && camera_->picture) {
-    background_ = toImage(undistorter_.apply(*camera_->picture));
+    const cv::Mat straight = undistorter_.apply(*camera_->picture);
+    background_ = toImage(straight);
+    look_.see(straight, placeOfBoard(), now_ns_);
+    state_.look = look_.look();
     fresh_picture_ = false;
   }
   state_.picture = background_.pixels.empty() ? nullptr : &background_;
@@ -320,7 +335,7 @@ void TrialScene::keepPictures() {
 void TrialScene::save(const std::string& name, const PictureRequest& moment) {
   render();
   const std::filesystem::path file = stage_.folder / name;
-  scene::writePng(stage_.view->capture(), file.string());
+  writer_.write(file, stage_.view->capture());
   pictures_.push_back({file, moment});
 }
 

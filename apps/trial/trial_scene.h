@@ -10,6 +10,8 @@
 #include "apps/runtime/bus.h"
 #include "apps/runtime/camera_trouble.h"
 #include "apps/station/station_sections.h"
+#include "apps/trial/look_watch.h"
+#include "apps/trial/picture_writer.h"
 #include "apps/trial/trial_status.h"
 #include "ar/cameras/undistort.h"
 #include "scene/head_display.h"
@@ -76,7 +78,7 @@ class TrialScene : public runtime::Activity {
 
   const char* name() const override { return "scene"; }
   std::int64_t step(std::int64_t now_ns) override;
-  /// After the executive has stopped: pictures still wanted.
+  /// After the executive has stopped: pictures still wanted; returns when all are written.
   void finish(std::int64_t now_ns);
 
   const std::vector<SavedPicture>& pictures() const { return pictures_; }
@@ -109,6 +111,7 @@ class TrialScene : public runtime::Activity {
   void composeAll();
   void showEllipse(bool camera_good);
   void hideBehindRealThings();
+  cv::Rect placeOfBoard() const;
   void render();
   void keepPictures();
   void save(const std::string& name, const PictureRequest& moment);
@@ -132,6 +135,8 @@ class TrialScene : public runtime::Activity {
   std::vector<SavedPicture> pictures_;
   std::vector<std::string> kept_sources_;
   std::optional<std::size_t> displaced_;  ///< the board that is told to be
+  LookWatch look_;
+  PictureWriter writer_;
 };
 
 /// "within 0.4 mm": how far off the overlay may be, for 95 of 100 moments.

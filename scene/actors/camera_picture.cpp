@@ -23,7 +23,6 @@
 #include "scene/window/pixels.h"
 
 namespace palpa::scene {
-namespace {
 
 void checkPicture(const Image& picture) {
   const bool sized = picture.width > 0 && picture.height > 0;
@@ -35,8 +34,6 @@ void checkPicture(const Image& picture) {
                     " has " + std::to_string(picture.pixels.size()) + " bytes",
                 "camera picture", "Give width * height * channels bytes, gray or RGB");
 }
-
-}  // namespace
 
 Backdrop::Backdrop(vtkRenderer& renderer, bool smooth) : renderer_(renderer) {
   texture_->SetInputData(image_);

@@ -14,6 +14,9 @@ class vtkTexture;
 
 namespace palpa::scene {
 
+/// Throws Error when size and pixels of a picture disagree.
+void checkPicture(const Image& picture);
+
 /// A picture behind everything a renderer draws, stretched over its viewport.
 class Backdrop {
  public:

@@ -47,12 +47,9 @@ SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& 
     renderer.SetActiveCamera(behind_->GetActiveCamera());
     window_.AddRenderer(&renderer);
   });
-  behind_->SetBackground(first_behind_.GetBackground());
-  behind_->SetBackgroundAlpha(first_behind_.GetBackgroundAlpha());
   behind_->SetBackground2(first_behind_.GetBackground2());
   glass_->EraseOff();
   on_skin_->EraseOff();
-  prepareSmoothing(*on_skin_);
   above_->SetLayer(first_above_.GetLayer());
 }
 
@@ -65,11 +62,9 @@ void SecondEye::mirror() {
   copyProps(first_glass_, *glass_);
   copyProps(first_on_skin_, *on_skin_);
   copyProps(first_above_, *above_);
-  behind_->SetBackgroundTexture(first_behind_.GetBackgroundTexture());
-  behind_->SetTexturedBackground(first_behind_.GetTexturedBackground());
+  behind_->SetBackground(first_behind_.GetBackground());
   behind_->SetGradientBackground(first_behind_.GetGradientBackground());
   on_skin_->SetDraw(first_on_skin_.GetDraw());
-  on_skin_->SetUseFXAA(first_on_skin_.GetUseFXAA());
   above_->SetDraw(first_above_.GetDraw());
 }
 
@@ -101,7 +96,6 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       stereo_(layout.stereo),
       see_through_(layout.see_through),
       orbit_(defaultView(patient, region)),
-      backdrop_(*renderer_, true),
       table_(*renderer_, patient),
       glass_((window.AddRenderer(renderer_), window), *renderer_),
       organs_(*renderer_, patient, &glass_),
@@ -112,6 +106,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       ellipse_(*above_, colour::kAdvice, 1.8),
       shadows_(*on_skin_, patient),
       search_(*on_skin_, *above_, 2.5),
+      compositor_(*on_skin_),
       occluders_(*renderer_) {
   organs_.setInside(layout.inside);
   if (layout.skin_deflection && organs_.skin())
@@ -123,15 +118,13 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
 }
 
 void ArView::setUpRenderers() {
-  setUpRenderer(*renderer_, see_through_ ? colour::kClear : colour::kBehindBottom);
-  if (see_through_) renderer_->SetBackgroundAlpha(0);
+  setUpRenderer(*renderer_, colour::kClear);
   for (vtkRenderer* renderer : {on_skin_.Get(), above_.Get()}) {
     setUpRenderer(*renderer, colour::kBehindBottom);
     renderer->SetActiveCamera(renderer_->GetActiveCamera());
     window_.AddRenderer(renderer);
   }
   on_skin_->EraseOff();  // over the colours and depths so far
-  prepareSmoothing(*on_skin_);
   above_->SetLayer(1);
   renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
 }
@@ -153,11 +146,12 @@ void ArView::place(const Rect& panel, int window_width, int window_height) {
 void ArView::update(const SceneState& state) {
   chooseCamera(state);
   applyCameras(state);
-  if (state.picture)
-    backdrop_.show(*state.picture);
-  else
-    backdrop_.hide();
-  renderer_->SetGradientBackground(state.picture == nullptr && !see_through_);
+  compositor_.show(state.picture, state.look);
+  // Over a picture, and before the world, what is not drawn is black of alpha 0.
+  const bool clear = state.picture || see_through_;
+  const Rgb& behind = clear ? colour::kClear : colour::kBehindBottom;
+  renderer_->SetBackground(behind[0], behind[1], behind[2]);
+  renderer_->SetGradientBackground(!clear);
   shows_patient_ = state.registered || state.picture == nullptr;
   showPatient(state, shows_patient_);
   if (second_) second_->mirror();
@@ -253,10 +247,8 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   showLines(state, visible);
   occluders_.update(state.occluders, visible && state.picture != nullptr);
   search_.update(state, visible, {X_CA_, pinhole_.fx}, kPin_px * window_height_ / 720.0);
-  // A camera's picture stays pixel for pixel what it is.
-  const bool smooth = state.picture == nullptr && !see_through_;
-  on_skin_->SetUseFXAA(smooth);
-  on_skin_->SetDraw(smooth || search_.anyOnSkin() || shadows_.any());
+  compositor_.setOn(!see_through_ || state.picture);  // it leaves no alpha
+  on_skin_->SetDraw(!see_through_ || state.picture || search_.anyOnSkin() || shadows_.any());
   above_->SetDraw(search_.anyAbove() || arrows_.any() || ellipse_.visible() || guide_.visible());
 }
 

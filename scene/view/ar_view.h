@@ -14,6 +14,7 @@
 #include "scene/actors/tool_shadow.h"
 #include "scene/panels.h"
 #include "scene/view/ar_camera.h"
+#include "scene/view/compositor.h"
 #include "scene/view/framing.h"
 #include "scene/view/navigation.h"
 #include "scene/view/scene_view.h"
@@ -112,7 +113,6 @@ class ArView {
   OrbitCamera orbit_;
   Pinhole pinhole_;
   Pose X_CA_ = Pose::Identity();
-  Backdrop backdrop_;
   Table table_;
   Glass glass_;
   OrganActors organs_;
@@ -123,6 +123,7 @@ class ArView {
   EdgedLines guide_, ellipse_;
   ToolShadows shadows_;
   SearchOverlay search_;
+  Compositor compositor_;
   Occluders occluders_;
   std::unique_ptr<SecondEye>
       second_;  // null: one camera, or an anaglyph's eyes one after the other

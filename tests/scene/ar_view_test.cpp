@@ -224,7 +224,7 @@ TEST_F(HeldTool, TrailIsALineAlongThePath) {
   SceneState state = withTool(false);
   const Image without = frameOf(nobody_, state);
   for (int i = 0; i <= 50; ++i) state.trail_A.push_back(Vec3(-0.05 + 0.002 * i, 0, 0.02));
-  const Blob line = changed(without, frameOf(nobody_, state));
+  const Blob line = clearlyChanged(without, frameOf(nobody_, state));
   const Eigen::Vector2d a = project(state.camera, state.X_CA * state.trail_A.front());
   const Eigen::Vector2d b = project(state.camera, state.X_CA * state.trail_A.back());
   EXPECT_NEAR(line.left, a.x(), 1.5);

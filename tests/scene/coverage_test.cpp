@@ -70,7 +70,7 @@ TEST_F(Search, ACellLiesWhereItsGridSaysAndNowhereElse) {
   state_.coverage = gridOf(0);
   const Image empty = frame();
   cell(*state_.coverage, 1, 5) = 3;  // left, far
-  const Blob felt = changed(frame(), empty);
+  const Blob felt = clearlyChanged(frame(), empty);
   const Eigen::Vector2d middle = project(state_.camera, state_.X_CA * middleOf(1, 5));
   const double side = kCellSide * 300 / 0.4;
   EXPECT_NEAR(felt.u, middle.x(), 1);
@@ -120,7 +120,7 @@ TEST_F(Search, ThePictureShowsThroughWhatIsFelt) {
 TEST_F(Search, AnAreaNotYetFeltHasOnlyItsOutline) {
   const Image bare = frame();
   state_.coverage = gridOf(0);
-  const Blob outline = changed(frame(), bare);
+  const Blob outline = clearlyChanged(frame(), bare);
   const double px = 300 / 0.4;
   EXPECT_NEAR(outline.right - outline.left, kColumns * kCellSide * px, 5);
   EXPECT_NEAR(outline.bottom - outline.top, kRows * kCellSide * px, 5);

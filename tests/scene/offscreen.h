@@ -56,9 +56,11 @@ Blob blobOf(const Image& image, Chosen chosen) {
 }
 
 /// Where two frames of one size differ by more than rounding.
-inline Blob changed(const Image& a, const Image& b) {
-  return blobOf(a, [&](int u, int v) { return difference(at(a, u, v), at(b, u, v)) > 2; });
+inline Blob changed(const Image& a, const Image& b, int rounding = 2) {
+  return blobOf(a, [&](int u, int v) { return difference(at(a, u, v), at(b, u, v)) > rounding; });
 }
+/// Where they differ by more than what a smoothed edge leaves beside it.
+inline Blob clearlyChanged(const Image& a, const Image& b) { return changed(a, b, 16); }
 
 inline Image plain(int width, int height, std::uint8_t value) {
   return {width, height, 3,

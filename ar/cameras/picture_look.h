@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <optional>
+
+namespace palpa::ar {
+
+/// What a camera has made of what it saw. Levels and grain in parts of the brightest that the
+/// picture can hold; channels red, green, blue.
+struct PictureLook {
+  double blur_px = 0;                       ///< sigma of a Gaussian, pixel and lens together
+  std::array<double, 3> black{}, white{};   ///< what is on the two sides of the clearest edges
+  double grain_black = 0, grain_white = 0;  ///< standard deviation of a pixel at these levels
+  double grain_neighbours = 0;  ///< correlation of a pixel's grain with that of the next
+  double grain_colour = 0;      ///< 0: alike in all channels; 1: each has its own
+};
+
+/// From one picture alone, 8-bit gray or BGR; nothing where it does not show enough clear edges and
+/// even places. `where`: whose edges count (empty: all); a lens is not as sharp at every distance.
+/// Throws Error for any other kind of picture.
+///
+/// Blur: around the steepest edges, pixels against their distance d from the edge,
+///     I(d) = low + (high - low) Phi((d - m) / sigma)
+/// by Gauss-Newton over low, high, m, sigma and the edge's direction; the median of those that fit
+/// and are high: black print on white paper, and not a shadow or something soft.
+///
+/// Grain: in blocks of 8 x 8 without structure, what remains beside a plane; its variance is a line
+/// over brightness (Healey, Kondepudy 1994: a part of the reading, a part of the light).
+std::optional<PictureLook> lookOf(const cv::Mat& picture, const cv::Rect& where = {});
+
+}  // namespace palpa::ar
