@@ -93,10 +93,11 @@ void benchRecords(const RecordsBenchOptions& options);
 
 struct RenderBenchOptions {
   int width = 1280, height = 720;
-  bool quick = false;  ///< fewer blocks
+  bool quick = false;   ///< fewer blocks
+  double minutes = 10;  ///< of frames in which something is saved or sorted now and then
 };
 
-/// What our frame costs beside VTK's own of the same actors, where its time goes, and translucent
+/// What our frame costs beside VTK's own of the same things, how steady it is, and translucent
 /// surfaces beside depth peeling. One JSON object a line. Throws Error where nothing can be drawn.
 void benchRender(const RenderBenchOptions& options);
 

@@ -110,14 +110,19 @@ void addRenderBench(CLI::App& bench) {
       "render",
       "Cost of a frame beside VTK's own, and of translucent surfaces beside depth peeling");
   render->footer(
-      "Example:\n  palpa bench render > render.jsonl\n  palpa bench render --width 1920 --height "
-      "1080");
+      "Example:\n  palpa bench render > render.jsonl\n  palpa bench render --quick --minutes 0.5 "
+      "--width "
+      "1920 --height 1080");
   const auto options = std::make_shared<bench::RenderBenchOptions>();
   render->add_option("--width", options->width, "Width of the window, px")
       ->check(inRange(320, 4096));
   render->add_option("--height", options->height, "Height of the window, px")
       ->check(inRange(240, 4096));
-  render->add_flag("--quick", options->quick, "Fewer repetitions");
+  render
+      ->add_option("--minutes", options->minutes,
+                   "Frames for so long, a picture saved or surfaces sorted now and then")
+      ->check(inRange(0.01, 600.0));
+  render->add_flag("--quick", options->quick, "Fewer repetitions; --minutes 10 takes as long");
   render->callback([options] { bench::benchRender(*options); });
 }
 

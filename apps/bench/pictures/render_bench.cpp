@@ -1,21 +1,22 @@
 #include "apps/bench/bench.h"
 
 #include <vtkCamera.h>
-#include <vtkImageData.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkRendererCollection.h>
-#include <vtkTexture.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/quantile.h"
 #include "apps/bench/bench_patients.h"
+#include "apps/bench/pictures/plain_scene.h"
 #include "apps/bench/pictures/tracking_scene.h"
 #include "apps/bench/timing.h"
+#include "apps/trial/picture_writer.h"
 #include "ar/tracking/board_tracker.h"
 #include "scene/actors/organ_actors.h"
 #include "scene/renderer_setup.h"
@@ -35,48 +36,26 @@ std::size_t trianglesOf(const anatomy::Patient& patient) {
   return all;
 }
 
-/// A session's frame: picture, translucent skin, needle, arrows, words, three fixed views.
-class SessionPicture {
+/// A session's frames: picture, translucent skin, needle, arrows, words. Number i of a slow sway.
+class SessionFrames {
  public:
-  SessionPicture(scene::GlContextProvider& context, const anatomy::Patient& patient,
-                 const RenderBenchOptions& o)
-      : layout_{o.width, o.height}, window_(*context.window()), view_(context, patient, layout_) {
-    entry_A_ = patient.landmark(anatomy::landmark::kEntry);
+  explicit SessionFrames(const anatomy::Patient& patient)
+      : entry_A_(patient.landmark(anatomy::landmark::kEntry)) {
     state_.picture = &picture_;
     state_.registered = true;
     state_.camera = {kPictureWidth, kPictureHeight, 600, 600, 319.5, 239.5};
+    state_.look = {.blur_px = 0.7,
+                   .black = {0.1, 0.1, 0.1},
+                   .white = {0.9, 0.9, 0.9},
+                   .grain_black = 0.01,
+                   .grain_white = 0.01};
   }
 
-  /// Number i of a slow sway, all of it by our own ways.
-  void ours(int i) {
-    move(i);
-    view_.show(state_);
-  }
-  /// The same actors and passes, moved as a program of VTK alone would: camera, one matrix, one
-  /// texture; then Render.
-  void bare(int i) {
-    move(i);
-    vtkRenderer& large = *renderer(1);
-    scene::aim(*large.GetActiveCamera(), view_.arGeometry().camera, state_.X_CA, {0.2, 1.5});
-    large.GetActiveCamera()->Modified();
-    if (vtkTexture* texture = large.GetBackgroundTexture()) modified(texture);
-    window_.Render();
-  }
-  void capture() const { view_.capture(); }
-
- private:
-  static void modified(vtkTexture* texture) {
-    texture->GetInput()->Modified();
-    texture->Modified();
-  }
-  vtkRenderer* renderer(int i) {
-    return static_cast<vtkRenderer*>(window_.GetRenderers()->GetItemAsObject(i));
-  }
-  void move(int i) {
+  const scene::SceneState& at(int i) {
     const double sway = std::sin(0.1 * i);
     for (std::size_t k = 0; k < picture_.pixels.size(); k += 97)
       picture_.pixels[k] = static_cast<std::uint8_t>(i);
-    state_.X_CA = lookAt(entry_A_ + Vec3(0.002 * sway, -0.45, 0.10), entry_A_);
+    state_.X_CA = lookAt(entry_A_ + Vec3(0.002 * sway + sideways_, -0.45, 0.10), entry_A_);
     state_.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(),
                            entry_A_ + Vec3(0, 0.01 * sway, 0));
     state_.forces = {
@@ -86,16 +65,18 @@ class SessionPicture {
     std::snprintf(force, sizeof force, "%.1f N",
                   1 + 0.01 * (i / 6 % 10));  // words change a few times a second
     state_.hud.force = force;
+    return state_;
   }
+  /// So far that translucent surfaces are sorted anew.
+  void moveEye(double sideways) { sideways_ = sideways; }
 
-  scene::ViewLayout layout_;
-  vtkRenderWindow& window_;
-  scene::SceneView view_;
+ private:
   scene::Image picture_{
       kPictureWidth, kPictureHeight, 3,
       std::vector<std::uint8_t>(std::size_t{3} * kPictureWidth * kPictureHeight, 120)};
   scene::SceneState state_;
   Vec3 entry_A_;
+  double sideways_ = 0;
 };
 
 /// The patient alone in one renderer, translucent our way or by peeling.
@@ -155,6 +136,12 @@ double rmsDifference(const scene::Image& a, const scene::Image& b) {
   return std::sqrt(squares / static_cast<double>(n)) / 255;
 }
 
+void printRatio(const std::string& name, const Ratio& ratio, const json& params) {
+  print(name, ratio.median, "1", params);
+  print(name + "_low", ratio.interval.low, "1", params);
+  print(name + "_high", ratio.interval.high, "1", params);
+}
+
 void benchTranslucency(vtkRenderWindow& window, const anatomy::Patient& patient, int blocks,
                        json params) {
   const int* size = window.GetSize();
@@ -188,21 +175,70 @@ void benchTranslucency(vtkRenderWindow& window, const anatomy::Patient& patient,
         ++frame;
         ours.render(camera, eye());
       });
-  print("translucency_cost_over_peeling", ratio.median, "1", params);
-  print("translucency_cost_over_peeling_low", ratio.interval.low, "1", params);
-  print("translucency_cost_over_peeling_high", ratio.interval.high, "1", params);
+  printRatio("translucency_cost_over_peeling", ratio, params);
 }
 
-void benchFrame(scene::GlContextProvider& context, const anatomy::Patient& patient,
-                const RenderBenchOptions& options, int blocks, const json& params) {
-  SessionPicture frame(context, patient, options);
-  const Ratio ratio = compareQueries(
-      blocks, 4, [&](int i) { frame.bare(i); }, [&](int i) { frame.ours(i); });
-  print("frame_over_bare_vtk", ratio.median, "1", params);
-  print("frame_over_bare_vtk_low", ratio.interval.low, "1", params);
-  print("frame_over_bare_vtk_high", ratio.interval.high, "1", params);
-  const double ours = timeQueries(16 * blocks, [&](int i) { frame.ours(i); }).median_us;
-  const double capture = timeQueries(16, [&](int) { frame.capture(); }).median_us;
+/// Our frames beside those of a program that leaves everything to VTK, each in a context of its
+/// own.
+void benchFrame(const anatomy::Patient& patient, const RenderBenchOptions& options, int blocks,
+                scene::SceneView& view, const json& params) {
+  SessionFrames frames(patient);
+  const auto against = [&](const std::string& name, PlainScene::Translucency translucency,
+                           bool fixed_views) {
+    const auto context =
+        scene::makeGlContext(scene::Display::offscreen, options.width, options.height, "VTK");
+    PlainScene plain(*context, patient, {options.width, options.height, translucency, fixed_views});
+    plain.show(frames.at(0));
+    printRatio(name,
+               compareQueries(
+                   blocks, 4, [&](int i) { plain.show(frames.at(i)); },
+                   [&](int i) { view.show(frames.at(i)); }),
+               params);
+  };
+  against("frame_over_bare_vtk", PlainScene::Translucency::peeling, true);
+  against("frame_over_bare_vtk_without_fixed_views", PlainScene::Translucency::peeling, false);
+  against("frame_over_vtk_blending", PlainScene::Translucency::blending, true);
+}
+
+/// The longest of the frames in which a picture was saved or surfaces were sorted, and of all.
+void benchSteadiness(const anatomy::Patient& patient, const RenderBenchOptions& options,
+                     scene::SceneView& view, json params) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kSaveEvery = 150, kMoveEvery = 40;  // frames
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("palpa-bench-" + std::to_string(Clock::now().time_since_epoch().count()));
+  std::filesystem::create_directories(folder);
+  SessionFrames frames(patient);
+  trial::PictureWriter writer;
+  std::vector<double> all, busy;
+  const auto end = Clock::now() + std::chrono::duration<double>(60 * options.minutes);
+  for (int i = 0; Clock::now() < end || busy.empty(); ++i) {
+    const bool save = i % kSaveEvery == kSaveEvery - 1, move = i % kMoveEvery == kMoveEvery - 1;
+    if (move) frames.moveEye(i / kMoveEvery % 2 ? 0.01 : 0);
+    const scene::SceneState& state = frames.at(i);
+    const auto begin = Clock::now();
+    view.show(state);
+    if (save) writer.write(folder / "view.png", view.capture());
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    all.push_back(ms);
+    if (save || move) busy.push_back(ms);
+  }
+  writer.finish();
+  std::filesystem::remove_all(folder);
+  const double median = quantile(all, 0.5);
+  params["frames"] = all.size();
+  params["saved_or_sorted"] = busy.size();
+  print("frame", median, "ms", params);
+  print("frame_max_over_median", *std::max_element(busy.begin(), busy.end()) / median, "1", params);
+  print("frame_max_over_median_of_all", *std::max_element(all.begin(), all.end()) / median, "1",
+        params);
+}
+
+/// Shares of a frame's time.
+void benchShares(const anatomy::Patient& patient, scene::SceneView& view, const json& params) {
+  SessionFrames frames(patient);
+  const double ours = timeQueries(64, [&](int i) { view.show(frames.at(i)); }).median_us;
+  const double capture = timeQueries(16, [&](int) { view.capture(); }).median_us;
   TrackingBenchOptions tracking;
   tracking.width = kPictureWidth;
   tracking.height = kPictureHeight;
@@ -213,8 +249,6 @@ void benchFrame(scene::GlContextProvider& context, const anatomy::Patient& patie
   for (int i = 0; i < 10; ++i) tracker.see(picture, t += 33'333'333);
   const double track =
       timeQueries(16, [&](int) { tracker.see(picture, t += 33'333'333); }).median_us;
-  print("frame", 1e-3 * ours, "ms", params);
-  print("overlay_update_share", 1 - 1 / ratio.median, "1", params);
   print("capture_share", capture / (ours + capture), "1", params);
   print("tracking_share", track / (ours + track), "1", params);
 }
@@ -230,7 +264,12 @@ void benchRender(const RenderBenchOptions& options) {
       {"triangles", trianglesOf(patient)},
       {"drawn_on", context->describe()}};
   const int blocks = options.quick ? 3 : 11;
-  benchFrame(*context, patient, options, blocks, params);
+  {
+    scene::SceneView view(*context, patient, {options.width, options.height});
+    benchFrame(patient, options, blocks, view, params);
+    benchSteadiness(patient, options, view, params);
+    benchShares(patient, view, params);
+  }
   benchTranslucency(*context->window(), patient, blocks, params);
 }
 
