@@ -29,6 +29,8 @@ inline constexpr Rgb kAdvice{0.45, 0.76, 0.96};  ///< edge of a calm notice
 inline constexpr Rgb kTickGood{0.18, 0.78, 0.60},
     kTickBad{0.95, 0.45, 0.18};  ///< on a replay's strip
 inline constexpr Rgb kSteel{0.80, 0.83, 0.86};
+inline constexpr Rgb kNeedle{0.97, 0.98, 1.00};        ///< its line on the screen
+inline constexpr Rgb kNeedleInside{1.00, 0.66, 0.50};  ///< the same, under the skin
 inline constexpr Rgb kLumen{0.10, 0.10, 0.12};
 inline constexpr Rgb kHub{0.88, 0.52, 0.66};  ///< 18G is pink (ISO 6009)
 inline constexpr Rgb kGlass{0.80, 0.90, 0.97};

@@ -21,16 +21,21 @@ EdgedLines::EdgedLines(vtkRenderer& renderer, const Rgb& colour, double width_px
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(shape_);
   const Rgb dark = colour::kPanel;
-  const auto set = [&](vtkActor* actor, const Rgb& c, double width) {
+  const auto set = [&](vtkActor* actor, const Rgb& c) {
     actor->SetMapper(mapper);
     actor->GetProperty()->SetColor(c[0], c[1], c[2]);
-    actor->GetProperty()->SetLineWidth(static_cast<float>(width));
     actor->GetProperty()->LightingOff();
     actor->VisibilityOff();
     renderer.AddActor(actor);
   };
-  set(edge_, dark, width_px + 2.5);
-  set(line_, colour, width_px);  // later and as near: over its edge
+  set(edge_, dark);
+  set(line_, colour);  // later and as near: over its edge
+  setWidth(width_px);
+}
+
+void EdgedLines::setWidth(double width_px, double edge_px) {
+  edge_->GetProperty()->SetLineWidth(static_cast<float>(width_px + 2 * edge_px));
+  line_->GetProperty()->SetLineWidth(static_cast<float>(width_px));
 }
 
 EdgedLines::~EdgedLines() = default;

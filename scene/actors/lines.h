@@ -23,6 +23,7 @@ class EdgedLines {
   ~EdgedLines();
   /// Each entry a line through its points.
   void show(const std::vector<std::vector<Vec3>>& lines_A);
+  void setWidth(double width_px, double edge_px = 1.25);
   void hide();
   void setVisible(bool visible);  ///< what was shown last
   bool visible() const;

@@ -203,13 +203,17 @@ void ToolShadows::update(const SceneState& state, bool visible) {
   visible = visible && skin_ && state.show_tool && state.X_AB.matrix().isIdentity(0) &&
             state.skin != SkinStyle::hidden;
   ring_.hide();
+  entry_A_.reset();
   for (const auto& ribbon : ribbons_) ribbon->hide();
   if (!visible) return;
   ribbons_[0]->show(shadowOf(state.tool, state.X_AT, *skin_, toward_light_));
   if (state.second_X_AT)
     ribbons_[1]->show(shadowOf(Tool::probe, *state.second_X_AT, *skin_, toward_light_));
   if (state.tool != Tool::needle) return;
-  if (const auto entry = entryOf(state.X_AT, *skin_)) ring_.show({ringAbout(*entry)});
+  const auto entry = entryOf(state.X_AT, *skin_);
+  if (!entry) return;
+  ring_.show({ringAbout(*entry)});
+  entry_A_ = entry->p_A;
 }
 
 bool ToolShadows::any() const {

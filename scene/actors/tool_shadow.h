@@ -58,6 +58,8 @@ class ToolShadows {
 
   void update(const SceneState& state, bool visible);
   bool any() const;
+  /// Of the needle, as of the last update
+  std::optional<Vec3> entry_A() const { return entry_A_; }
 
  private:
   class Ribbon;
@@ -65,6 +67,7 @@ class ToolShadows {
   std::unique_ptr<anatomy::TriangleTree> skin_;
   std::vector<std::unique_ptr<Ribbon>> ribbons_;
   EdgedLines ring_;
+  std::optional<Vec3> entry_A_;
 };
 
 }  // namespace palpa::scene

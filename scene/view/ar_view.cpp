@@ -105,6 +105,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       guide_(*above_, colour::kAdvice, 2.5),
       ellipse_(*above_, colour::kAdvice, 1.8),
       shadows_(*on_skin_, patient),
+      needle_line_(*on_skin_),
       search_(*on_skin_, *above_, 2.5),
       compositor_(*on_skin_),
       occluders_(*renderer_) {
@@ -223,6 +224,14 @@ void ArView::showLines(const SceneState& state, bool visible) {
     ellipse_.show({ellipse});
 }
 
+void ArView::showNeedleLine(const SceneState& state, bool visible) {
+  if (!visible || !state.show_tool || state.tool != Tool::needle) return needle_line_.hide();
+  const double unit_px = std::max(window_height_ / 720.0, 1.0);
+  const double scale = state.picture ? double(picture_.width) / state.picture->width : 0;
+  needle_line_.update(state, shadows_.entry_A(), X_CA_, pinhole_.fx, unit_px,
+                      scale * state.look.blur_px);
+}
+
 void ArView::showPatient(const SceneState& state, bool visible) {
   if (skin_) skin_->update(state.skin_push);
   table_.setVisible(visible && virtual_ && !see_through_);
@@ -241,14 +250,17 @@ void ArView::showPatient(const SceneState& state, bool visible) {
     instrument_.show(state.tool);
   else
     instrument_.hide();
+  const double unit_px = window_height_ / 720.0;
+  showNeedleLine(state, visible);
   if (trail_) trail_->SetVisibility(visible);
-  const double unit_px = kShaft_px * window_height_ / 720.0;
-  arrows_.update(visible ? state.forces : std::vector<ForceArrow>(), X_CA_, pinhole_.fx, unit_px);
+  arrows_.update(visible ? state.forces : std::vector<ForceArrow>(), X_CA_, pinhole_.fx,
+                 kShaft_px * unit_px);
   showLines(state, visible);
   occluders_.update(state.occluders, visible && state.picture != nullptr);
-  search_.update(state, visible, {X_CA_, pinhole_.fx}, kPin_px * window_height_ / 720.0);
+  search_.update(state, visible, {X_CA_, pinhole_.fx}, kPin_px * unit_px);
   compositor_.setOn(!see_through_ || state.picture);  // it leaves no alpha
-  on_skin_->SetDraw(!see_through_ || state.picture || search_.anyOnSkin() || shadows_.any());
+  on_skin_->SetDraw(!see_through_ || state.picture || search_.anyOnSkin() || shadows_.any() ||
+                    needle_line_.visible());
   above_->SetDraw(search_.anyAbove() || arrows_.any() || ellipse_.visible() || guide_.visible());
 }
 

@@ -8,6 +8,7 @@
 #include "scene/actors/force_arrows.h"
 #include "scene/actors/instrument.h"
 #include "scene/actors/lines.h"
+#include "scene/actors/needle_line.h"
 #include "scene/actors/organ_actors.h"
 #include "scene/actors/search_overlay.h"
 #include "scene/actors/table.h"
@@ -93,6 +94,7 @@ class ArView {
   void lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind);
   void setUpRenderers();
   void showLines(const SceneState& state, bool visible);
+  void showNeedleLine(const SceneState& state, bool visible);
   void showPatient(const SceneState& state, bool visible);
 
   vtkRenderWindow& window_;
@@ -122,6 +124,7 @@ class ArView {
   ForceArrows arrows_;
   EdgedLines guide_, ellipse_;
   ToolShadows shadows_;
+  NeedleLine needle_line_;
   SearchOverlay search_;
   Compositor compositor_;
   Occluders occluders_;

@@ -1,0 +1,98 @@
+#include "scene/actors/needle_line.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "anatomy/parametric/phantoms.h"
+#include "scene/actors/instrument.h"
+#include "tests/scene/offscreen.h"
+
+namespace palpa::scene {
+namespace {
+
+/// Relative luminance of sRGB (WCAG 2.1).
+double luminance(const Pixel& p) {
+  const auto linear = [](int level) {
+    const double c = level / 255.0;
+    return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(p.r) + 0.7152 * linear(p.g) + 0.0722 * linear(p.b);
+}
+
+Pixel between(const Image& image, const Eigen::Vector2d& p) {
+  const int u = int(std::floor(p.x())), v = int(std::floor(p.y()));
+  const double a = p.x() - u, b = p.y() - v;
+  const auto mix = [&](auto channel) {
+    return int(std::lround(
+        (1 - b) * ((1 - a) * at(image, u, v).*channel + a * at(image, u + 1, v).*channel) +
+        b * ((1 - a) * at(image, u, v + 1).*channel + a * at(image, u + 1, v + 1).*channel)));
+  };
+  return {mix(&Pixel::r), mix(&Pixel::g), mix(&Pixel::b)};
+}
+
+/// As wide on the screen as 0.9 mm at 0.5 m before a camera of 650 px.
+SceneState acrossThePicture(double angle, const Image& picture) {
+  SceneState state;
+  state.picture = &picture;
+  state.registered = true;
+  const double width_px = 0.0009 * 650 / 0.5, f = width_px / (2 * InstrumentSize().needle_radius);
+  state.camera = {400, 300, 0.5 * f, 0.5 * f, 199.5, 149.5};
+  state.X_CA = lookAt({0, -0.5, 0}, {0, 0, 0});
+  const Vec3 forward(std::cos(angle), 0, std::sin(angle));
+  state.X_AT = makePose(rotationWithZ(forward), 0.5 * InstrumentSize().needle_length * forward);
+  return state;
+}
+
+/// The share of the needle's length along which it is three times as bright, or as dark, as what is
+/// within four pixels of it, as WCAG reckons contrast.
+double shareSeen(const Image& image, const SceneState& state) {
+  const double length = InstrumentSize().needle_length;
+  const auto on = [&](double behind) {
+    return project(state.camera, state.X_CA * (state.X_AT * Vec3(0, 0, -behind)));
+  };
+  const Eigen::Vector2d along = (on(length) - on(0)).normalized(), across(-along.y(), along.x());
+  int seen = 0;
+  constexpr int kPlaces = 100;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Eigen::Vector2d middle = on((i + 0.5) / kPlaces * length);
+    double bright = 0, dark = 1;
+    for (double d = -1; d <= 1; d += 0.5)
+      bright = std::max(bright, luminance(between(image, middle + d * across)));
+    for (const double side : {-1.0, 1.0})
+      for (double d = 2; d <= 4; d += 0.5)
+        dark = std::min(dark, luminance(between(image, middle + side * d * across)));
+    if ((bright + 0.05) / (dark + 0.05) >= 3) ++seen;
+  }
+  return double(seen) / kPlaces;
+}
+
+const CameraLook& softCamera() {
+  static const CameraLook look{.blur_px = 0.8,
+                               .black = {0.08, 0.08, 0.08},
+                               .white = {0.9, 0.9, 0.9},
+                               .grain_black = 0.012,
+                               .grain_white = 0.012};
+  return look;
+}
+
+class Angles : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(NeedleLine, Angles, testing::Range(0, 36));
+
+TEST_P(Angles, ANeedleStandsOutAlongItsLength) {
+  static const anatomy::Patient nobody = anatomy::phantomBlock({0.01, 0.01, 0.01}, "block");
+  static SceneView view(offscreen(), nobody, {400, 300, FixedViews::none, true});
+  const double angle = 2 * std::numbers::pi * (GetParam() + 0.37) / 36;
+  for (const std::uint8_t level : {20, 90, 150, 235}) {
+    const Image picture = plain(400, 300, level);
+    SceneState state = acrossThePicture(angle, picture);
+    state.skin = SkinStyle::hidden;
+    state.look = softCamera();
+    view.show(state);
+    EXPECT_GE(shareSeen(view.capture(), state), 0.95) << "on " << int(level);
+  }
+}
+
+}  // namespace
+}  // namespace palpa::scene
