@@ -3,7 +3,6 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <set>
 
 #include "scene/actors/force_arrows.h"
 #include "scene/actors/surface_map.h"
@@ -75,11 +74,28 @@ HudPainter::HudPainter(vtkRenderer& renderer, ForceColours colours)
 HudPainter::~HudPainter() = default;
 
 void HudPainter::update(const Hud& text, const std::vector<ForceArrow>& forces, const Rect& panel,
-                        int window_height) {
+                        int window_height, const Surroundings& surroundings) {
   Content wanted{text, kindsDrawn(forces), anyCut(forces), panel, window_height};
-  if (content_ && *content_ == wanted) return;
-  content_ = std::make_unique<Content>(std::move(wanted));
-  build();
+  if (!content_ || !(*content_ == wanted)) {
+    content_ = std::make_unique<Content>(std::move(wanted));
+    panel_ = panel;
+    build();
+  }
+  makeWay(surroundings);
+}
+
+bool HudPainter::alarms() const { return content_->text.alarm; }
+
+/// Left end of a plate on this side.
+int HudPainter::startOf(int width, bool right) const {
+  const Rect& panel = content_->panel;
+  return right ? panel.right() - margin_ - width : panel.x + margin_;
+}
+
+/// Whether it is drawn.
+bool HudPainter::put(Plate plate, const Rect& frame) {
+  placed_.push_back({plate, frame});
+  return !hidden_.contains(plate);
 }
 
 void HudPainter::build() {
@@ -89,6 +105,7 @@ void HudPainter::build() {
   above_ = content_->panel.y + margin_;
   used_ = 0;
   plates_.clear();
+  placed_.clear();
   buildMark();
   buildPhase();
   buildTimeline();
@@ -121,12 +138,13 @@ void HudPainter::buildMark() {
   const TextStyle look = fitted(text, style(0.82, true, colour::kMark), panel.width / 2);
   const int pad = text_ / 2, width = textWidth(text, look) + 2 * pad;
   const int height = lineHeight(look) + pad;
-  const Rect frame{panel.right() - margin_ - width, panel.top() - margin_ - height, width, height};
+  const Rect frame{startOf(width, !upper_right_), panel.top() - margin_ - height, width, height};
+  if (panel.width < 40 * text_)
+    below_ -= height + margin_ / 2;  // narrow: the badge has its own line
+  if (!put(Plate::mark, frame)) return;
   plates_.add(frame, opaque(colour::kMark), pad);
   plates_.add({frame.x + 1, frame.y + 1, width - 2, height - 2}, {0.06, 0.06, 0.06, 1}, pad - 1);
   write(text, look, frame.x + width / 2, frame.y + height / 2, Align::centre);
-  if (panel.width < 40 * text_)
-    below_ -= height + margin_ / 2;  // narrow: the badge has its own line
 }
 
 void HudPainter::buildPhase() {
@@ -136,11 +154,12 @@ void HudPainter::buildPhase() {
   const TextStyle look =
       fitted(text, style(1.15, true, colour::kText), content_->panel.width - 2 * (margin_ + pad));
   const int height = lineHeight(look) + pad;
-  const Rect frame{content_->panel.x + margin_, below_ - height, textWidth(text, look) + 2 * pad,
-                   height};
+  const int width = textWidth(text, look) + 2 * pad;
+  const Rect frame{startOf(width, upper_right_), below_ - height, width, height};
+  below_ = frame.y - margin_ / 2;
+  if (!put(Plate::phase, frame)) return;
   plates_.add(frame, colour::kPlate, pad / 2);
   write(text, look, frame.x + pad, frame.y + height / 2, Align::left);
-  below_ = frame.y - margin_ / 2;
 }
 
 std::vector<HudPainter::Row> HudPainter::readings() const {
@@ -166,10 +185,12 @@ void HudPainter::buildReadings() {
   }
   const int pad = text_ * 2 / 3, line = lineHeight(bright) * 11 / 10;
   const int height = static_cast<int>(rows.size()) * line + pad;
-  const Rect frame{content_->panel.x + margin_, above_, names + values + 3 * pad, height};
-  plates_.add(frame, colour::kPlate, pad / 2);
+  const int width = names + values + 3 * pad;
+  const Rect frame{startOf(width, lower_right_), above_, width, height};
   readings_ = frame;
   above_ = frame.top() + margin_;
+  if (!put(Plate::readings, frame)) return;
+  plates_.add(frame, colour::kPlate, pad / 2);
   int y = frame.top() - pad / 2 - line / 2;
   for (const Row& row : rows) {
     write(row.name, dim, frame.x + pad, y, Align::left);
@@ -188,7 +209,9 @@ void HudPainter::buildLegend() {
   for (ForceKind kind : content_->kinds) width += swatch + textWidth(name(kind), bright) + 3 * pad;
   width += textWidth(scale, dim) + pad;
   const int height = lineHeight(bright) + pad;
-  const Rect frame{content_->panel.x + margin_, above_, width, height};
+  const Rect frame{startOf(width, lower_right_), above_, width, height};
+  above_ = frame.top() + margin_;
+  if (!put(Plate::legend, frame)) return;
   plates_.add(frame, colour::kPlate, pad / 2);
   int x = frame.x + pad;
   const int y = frame.y + height / 2;
@@ -200,7 +223,6 @@ void HudPainter::buildLegend() {
     x += textWidth(name(kind), bright) + 2 * pad;
   }
   write(scale, dim, x, y, Align::left);
-  above_ = frame.top() + margin_;
 }
 
 /// "Stiffness  0.12 [colours] 0.31 N/mm  striped: not sure"
@@ -216,7 +238,9 @@ void HudPainter::buildScale() {
                     textWidth(scale.high, bright) + 5 * pad +
                     (unsure.empty() ? 0 : textWidth(unsure, dim) + 2 * pad);
   const int height = lineHeight(bright) + pad;
-  const Rect frame{content_->panel.x + margin_, above_, width, height};
+  const Rect frame{startOf(width, lower_right_), above_, width, height};
+  above_ = frame.top() + margin_;
+  if (!put(Plate::scale, frame)) return;
   plates_.add(frame, colour::kPlate, pad / 2);
   int x = frame.x + pad;
   const int y = frame.y + height / 2;
@@ -233,7 +257,6 @@ void HudPainter::buildScale() {
   write_on(scale.high, bright);
   x += pad;
   if (!unsure.empty()) write_on(unsure, dim);
-  above_ = frame.top() + margin_;
 }
 
 void HudPainter::buildTimeline() {
@@ -277,8 +300,12 @@ void HudPainter::buildNotice() {
   const int line = lineHeight(look), lines = second.empty() ? 1 : 2;
   const int width = std::max(textWidth(first, look), textWidth(second, look)) + 2 * pad;
   const int left = panel.x + (panel.width - width) / 2;
-  const bool beside = left > readings_.right() + margin_;
-  const Rect frame{left, beside ? readings_.y : above_, width, lines * line + pad};
+  const bool beside =
+      lower_right_ ? left + width + margin_ < readings_.x : left > readings_.right() + margin_;
+  const int height = lines * line + pad, down = beside ? readings_.y : above_, up = below_ - height;
+  const Rect frame{left, notice_up_ ? up : down, width, height};
+  notice_elsewhere_ = {left, notice_up_ ? down : up, width, height};
+  if (!put(Plate::notice, frame)) return;
   const Rgba edge = alarm ? opaque(colour::kText) : opaque(colour::kAdvice);
   const int rim = std::max(1, text_ / 8);
   plates_.add({frame.x - rim, frame.y - rim, width + 2 * rim, frame.height + 2 * rim}, edge,

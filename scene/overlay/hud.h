@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "scene/overlay/clearance.h"
 #include "scene/overlay/label.h"
 #include "scene/panels.h"
 #include "scene/scene_state.h"
@@ -18,8 +20,11 @@ int textSize_px(int window_height);
 int stripHeight_px(int window_height);
 
 /// Words over the AR view: the phase at the top left, the mark at the top right; readings at the
-/// bottom left, where no syringe is held, over the legend of the force arrows; the notice at the
-/// bottom centre; of a replay a strip below them.
+/// bottom left, over the legend of the force arrows; the notice at the bottom centre; of a replay a
+/// strip below them. Where a tool, its tip or its entry would be covered, what is above changes
+/// sides, what is below too, and the notice goes up; a plate that is in the way on either side is
+/// not drawn as long as it is, but for an alarm. They stay where they are until they are in the way
+/// again.
 class HudPainter {
  public:
   explicit HudPainter(
@@ -29,14 +34,27 @@ class HudPainter {
 
   /// Lays everything out again, only when something changed.
   void update(const Hud& text, const std::vector<ForceArrow>& forces, const Rect& panel,
-              int window_height);
+              int window_height, const Surroundings& surroundings = {});
+
+  /// Of all plates that are drawn now, the notice's last
+  std::vector<Rect> plates() const;
 
  private:
+  enum class Plate { phase, mark, legend, scale, readings, notice };
+  struct Placed {
+    Plate plate;
+    Rect frame;
+  };
   struct Content;
   struct Row {
     std::string name, value;
   };
   void build();
+  void makeWay(const Surroundings& surroundings);
+  bool inTheWay(Plate first, Plate last, bool other_side, const Surroundings& surroundings) const;
+  int startOf(int width, bool right) const;
+  bool put(Plate plate, const Rect& frame);
+  bool alarms() const;
   void buildPhase();
   void buildReadings();
   void buildMark();
@@ -55,10 +73,16 @@ class HudPainter {
   std::vector<std::unique_ptr<Label>> labels_;
   std::size_t used_ = 0;
   std::unique_ptr<Content> content_;
+  Rect panel_;
   int margin_ = 10, text_ = 14;
-  int below_ = 0;  ///< top of what comes next at the left
-  int above_ = 0;  ///< bottom of what comes next at the bottom
-  Rect readings_;  ///< their plate; as wide as a pixel: none
+  int below_ = 0;               ///< top of what comes next at the left
+  int above_ = 0;               ///< bottom of what comes next at the bottom
+  Rect readings_;               ///< their plate; as wide as a pixel: none
+  std::vector<Placed> placed_;  ///< drawn or not
+  std::set<Plate> hidden_;
+  bool upper_right_ = false, lower_right_ = false;  ///< phase; readings and legend
+  bool notice_up_ = false;
+  Rect notice_elsewhere_;  ///< where it would lie if it went up, or down again
 };
 
 }  // namespace palpa::scene

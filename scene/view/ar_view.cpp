@@ -224,6 +224,33 @@ void ArView::showLines(const SceneState& state, bool visible) {
     ellipse_.show({ellipse});
 }
 
+Surroundings ArView::toolOnScreen(const SceneState& state) const {
+  Surroundings around;
+  if (!shows_patient_ || !state.show_tool) return around;
+  const EyeCamera eye = this->eye();
+  const Rect& where = eyePanel();
+  const auto depth = [&](const Vec3& p_A) { return std::max((eye.X_CA * p_A).z(), kNearestThing); };
+  const auto on_screen = [&](const Vec3& p_A) {
+    const Vec3 p = eye.X_CA * p_A / depth(p_A);
+    return Eigen::Vector2d(where.x + eye.camera.fx * p.x() + eye.camera.cx + 0.5,
+                           where.top() - eye.camera.fy * p.y() - eye.camera.cy - 0.5);
+  };
+  const auto add = [&](Tool tool, const Pose& X_AT) {
+    Vec3 before_A = X_AT.translation();
+    for (const ToolSection& section : sectionsOf(tool)) {
+      const Vec3 here_A = X_AT * Vec3(0, 0, -section.behind);
+      around.tool.push_back(
+          {on_screen(before_A), on_screen(here_A), section.radius * eye.camera.fx / depth(here_A)});
+      before_A = here_A;
+    }
+    around.points.push_back(on_screen(X_AT.translation()));
+  };
+  add(state.tool, state.X_AT);
+  if (state.second_X_AT) add(Tool::probe, *state.second_X_AT);
+  if (const auto entry_A = shadows_.entry_A()) around.points.push_back(on_screen(*entry_A));
+  return around;
+}
+
 void ArView::showNeedleLine(const SceneState& state, bool visible) {
   if (!visible || !state.show_tool || state.tool != Tool::needle) return needle_line_.hide();
   const double unit_px = std::max(window_height_ / 720.0, 1.0);

@@ -13,6 +13,7 @@
 #include "scene/actors/search_overlay.h"
 #include "scene/actors/table.h"
 #include "scene/actors/tool_shadow.h"
+#include "scene/overlay/clearance.h"
 #include "scene/panels.h"
 #include "scene/view/ar_camera.h"
 #include "scene/view/compositor.h"
@@ -86,6 +87,8 @@ class ArView {
   /// What is seen where: the camera, or the left one of two eyes, and the part of the window that
   /// it fills.
   EyeCamera eye() const { return stereo_ == Stereo::none ? EyeCamera{pinhole_, X_CA_} : eyes_[0]; }
+  /// Where the tool is in the window (the left eye's, of two), its tip and where a needle went in.
+  Surroundings toolOnScreen(const SceneState& state) const;
   const Rect& eyePanel() const { return stereo_ == Stereo::none ? picture_ : eye_panels_[0]; }
 
  private:

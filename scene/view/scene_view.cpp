@@ -145,7 +145,7 @@ void SceneView::Impl::writeWords(const SceneState& state) {
       ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
   Hud text = state.hud;
   if (ar.showsPatient() && state.surface_map) text.scale = scaleOf(*state.surface_map);
-  if (!other_hud) return hud.update(text, forces, panels.ar, size[1]);
+  if (!other_hud) return hud.update(text, forces, panels.ar, size[1], ar.toolOnScreen(state));
   const std::array<Rect, 2> where = wordPanels(ar.eyes(), ar.panelsOfEyes());
   hud.update(text, forces, where[0], 2 * where[0].height);
   other_hud->update(text, forces, where[1], 2 * where[1].height);

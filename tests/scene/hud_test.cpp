@@ -40,7 +40,9 @@ TEST_P(HudFrame, ChangedReadingChangesTheLowerLeftCornerOnly) {
   EXPECT_GT(change.top, 0.70 * height());
 }
 
+/// Where no tool is in the way.
 TEST_P(HudFrame, AlarmIsARedPlateInTheLowerMiddleOfTheArView) {
+  state_.show_tool = false;
   const Image before = frame();
   state_.hud.notice = "Emergency stop: release the space bar and start again";
   state_.hud.alarm = true;
@@ -54,6 +56,21 @@ TEST_P(HudFrame, AlarmIsARedPlateInTheLowerMiddleOfTheArView) {
   EXPECT_GT(red.top, 0.6 * height());
   EXPECT_LT(red.right, 0.7 * width());
   EXPECT_LT(changed(before, after).right, 0.7 * width());
+}
+
+TEST_P(HudFrame, AnAlarmIsSeenWhereverTheToolIs) {
+  state_.hud.notice = "Emergency stop: release the space bar and start again";
+  state_.hud.alarm = true;
+  for (const double x : {-0.1, 0.0, 0.1})
+    for (const double z : {-0.1, 0.0, 0.1}) {
+      state_.X_AT = makePose(rotationWithZ(Vec3(0.2, 0.5, 0.3).normalized()), Vec3(x, 0, z));
+      const Image now = frame();
+      const Blob red = blobOf(now, [&](int u, int v) {
+        const Pixel p = at(now, u, v);
+        return p.r > 150 && p.g < 50 && p.b < 50;
+      });
+      EXPECT_GT(red.count, 0.01 * width() * height());
+    }
 }
 
 TEST_P(HudFrame, AReplaysStripLiesAtTheBottomOfTheArViewAndMovesOn) {

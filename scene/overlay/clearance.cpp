@@ -1,0 +1,48 @@
+#include "scene/overlay/clearance.h"
+
+#include <algorithm>
+#include <array>
+
+namespace palpa::scene {
+namespace {
+
+constexpr double kMost = 0.05;    // of the tool
+constexpr double kAround_px = 8;  // of a point
+constexpr int kPlaces = 24;       // along a part
+
+}  // namespace
+
+double shareUnder(const Rect& plate, const Surroundings& surroundings, const Rect& panel) {
+  constexpr std::array kAcross{-0.9, -0.45, 0.0, 0.45, 0.9};
+  double seen = 0, under = 0;
+  for (const Surroundings::Part& part : surroundings.tool) {
+    const Eigen::Vector2d along = part.to - part.from;
+    const double length = along.norm();
+    if (length <= 0) continue;
+    const Eigen::Vector2d side = Eigen::Vector2d(-along.y(), along.x()) / length * part.half_width;
+    for (int i = 0; i < kPlaces; ++i)
+      for (const double across : kAcross) {
+        const Eigen::Vector2d p = part.from + (i + 0.5) / kPlaces * along + across * side;
+        if (!panel.contains(p.x(), p.y())) continue;
+        const double area = length * part.half_width;
+        seen += area;
+        if (plate.contains(p.x(), p.y())) under += area;
+      }
+  }
+  return seen > 0 ? under / seen : 0;
+}
+
+bool isClear(const Rect& plate, const Surroundings& surroundings, const Rect& panel) {
+  const bool on_point = std::any_of(
+      surroundings.points.begin(), surroundings.points.end(), [&](const Eigen::Vector2d& p) {
+        return p.x() > plate.x - kAround_px && p.x() < plate.right() + kAround_px &&
+               p.y() > plate.y - kAround_px && p.y() < plate.top() + kAround_px;
+      });
+  return !on_point && shareUnder(plate, surroundings, panel) <= kMost;
+}
+
+Rect mirrored(const Rect& plate, const Rect& panel) {
+  return {panel.x + panel.right() - plate.right(), plate.y, plate.width, plate.height};
+}
+
+}  // namespace palpa::scene

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "scene/panels.h"
+
+namespace palpa::scene {
+
+/// What words must not cover, pixels of the window, origin bottom left.
+struct Surroundings {
+  /// A straight part of the tool: its axis, and how far it reaches to the sides.
+  struct Part {
+    Eigen::Vector2d from, to;
+    double half_width = 1;
+  };
+  std::vector<Part> tool;
+  std::vector<Eigen::Vector2d> points;  ///< its tip, and where it went in
+};
+
+/// The part of the tool's area, as it is seen in `panel`, that lies under a plate; 0 to 1.
+double shareUnder(const Rect& plate, const Surroundings& surroundings, const Rect& panel);
+/// A plate covers no point, nor more than 5 % of the tool.
+bool isClear(const Rect& plate, const Surroundings& surroundings, const Rect& panel);
+/// The plate on the panel's other side.
+Rect mirrored(const Rect& plate, const Rect& panel);
+
+}  // namespace palpa::scene
