@@ -37,16 +37,20 @@ small() {
   printf '%s: %d bytes, %d colours\n' "$to" "$size" "$colours"
 }
 
-# moment FOLDER LABEL TO: the first picture of a marked moment
+# moment FOLDER LABEL TO: the first picture of a marked moment; a JPEG, because a camera's grain has
+# more colours than a palette
 moment() {
-  local found=("$1"/view-*-"$2".png)
+  local found=("$1"/view-*-"$2".png) size
   [ -f "${found[0]}" ] || fail "the session kept no picture of \"$2\""
-  small "${found[0]}" "$3"
+  convert "${found[0]}" -strip -quality 85 "$here/$3"
+  size=$(stat -c %s "$here/$3")
+  [ "$size" -le "$most" ] || fail "$3 has $size bytes, more than $most"
+  printf '%s: %d bytes\n' "$3" "$size"
 }
 
 cd "$work"
 "$palpa" paracentesis --operator expert --seed 1 --fast --out out/readme
-moment out/readme phase-2 session.png
+moment out/readme phase-2 session.jpg
 
 root=()
 [ "$(id -u)" = 0 ] && root=(--no-sandbox)  # chromium refuses its sandbox to root
