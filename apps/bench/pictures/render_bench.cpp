@@ -6,9 +6,8 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <filesystem>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/quantile.h"
@@ -16,6 +15,8 @@
 #include "apps/bench/pictures/plain_scene.h"
 #include "apps/bench/pictures/tracking_scene.h"
 #include "apps/bench/timing.h"
+#include "apps/os/file_access.h"
+#include "apps/runtime/clock.h"
 #include "apps/trial/picture_writer.h"
 #include "ar/tracking/board_tracker.h"
 #include "scene/actors/organ_actors.h"
@@ -203,28 +204,29 @@ void benchFrame(const anatomy::Patient& patient, const RenderBenchOptions& optio
 /// The longest of the frames in which a picture was saved or surfaces were sorted, and of all.
 void benchSteadiness(const anatomy::Patient& patient, const RenderBenchOptions& options,
                      scene::SceneView& view, json params) {
-  using Clock = std::chrono::steady_clock;
   constexpr int kSaveEvery = 150, kMoveEvery = 40;  // frames
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("palpa-bench-" + std::to_string(Clock::now().time_since_epoch().count()));
-  std::filesystem::create_directories(folder);
+  const os::TemporaryFolder folder("palpa-bench-");
   SessionFrames frames(patient);
   trial::PictureWriter writer;
   std::vector<double> all, busy;
-  const auto end = Clock::now() + std::chrono::duration<double>(60 * options.minutes);
-  for (int i = 0; Clock::now() < end || busy.empty(); ++i) {
+  const runtime::SteadyClock clock;
+  const double minute_ns = 60.0 * runtime::kSecond;
+  int told = 0;
+  for (int i = 0; clock.now() < options.minutes * minute_ns || busy.empty(); ++i) {
     const bool save = i % kSaveEvery == kSaveEvery - 1, move = i % kMoveEvery == kMoveEvery - 1;
     if (move) frames.moveEye(i / kMoveEvery % 2 ? 0.01 : 0);
     const scene::SceneState& state = frames.at(i);
-    const auto begin = Clock::now();
+    const std::int64_t begin = clock.now();
     view.show(state);
-    if (save) writer.write(folder / "view.png", view.capture());
-    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    if (save) writer.write(folder.path() / "view.png", view.capture());
+    const double ms = 1e-6 * static_cast<double>(clock.now() - begin);
     all.push_back(ms);
     if (save || move) busy.push_back(ms);
+    const int minutes = static_cast<int>(static_cast<double>(clock.now()) / minute_ns);
+    if (minutes > told)
+      std::fprintf(stderr, "frames: %d of %.0f minutes\n", told = minutes, options.minutes);
   }
   writer.finish();
-  std::filesystem::remove_all(folder);
   const double median = quantile(all, 0.5);
   params["frames"] = all.size();
   params["saved_or_sorted"] = busy.size();
