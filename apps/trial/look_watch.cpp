@@ -30,8 +30,9 @@ void LookWatch::take(const std::optional<ar::PictureLook>& measured) {
 
 void LookWatch::see(const cv::Mat& picture, const cv::Rect& where, std::int64_t now_ns) {
   if (now_ns < next_ns_) return;
+  const bool first = next_ns_ == INT64_MIN;
   next_ns_ = now_ns + kPeriod;
-  if (!known_ && !pending_.valid()) return take(ar::lookOf(picture, where));
+  if (first) return take(ar::lookOf(picture, where));
   if (pending_.valid()) take(pending_.get());
   pending_ = beside_.start([picture, where] { return ar::lookOf(picture, where); });
 }

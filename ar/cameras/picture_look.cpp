@@ -334,8 +334,9 @@ std::optional<PictureLook> lookOf(const cv::Mat& picture, const cv::Rect& where)
                 "Convert the picture first");
   cv::Mat gray = picture;
   if (picture.channels() == 3) cv::cvtColor(picture, gray, cv::COLOR_BGR2GRAY);
-  const Edges edges =
-      edgesOf(picture, gray, where.empty() ? cv::Rect(0, 0, picture.cols, picture.rows) : where);
+  const cv::Rect all(0, 0, picture.cols, picture.rows);
+  Edges edges = edgesOf(picture, gray, where.empty() ? all : where);
+  if (edges.sigma.size() < kFewestEdges && !where.empty()) edges = edgesOf(picture, gray, all);
   const std::vector<Block> blocks = evenBlocks(picture, gray);
   if (edges.sigma.size() < kFewestEdges || blocks.size() < kFewestBlocks) return std::nullopt;
   PictureLook look;

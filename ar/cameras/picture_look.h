@@ -17,8 +17,8 @@ struct PictureLook {
 };
 
 /// From one picture alone, 8-bit gray or BGR; nothing where it does not show enough clear edges and
-/// even places. `where`: whose edges count (empty: all); a lens is not as sharp at every distance.
-/// Throws Error for any other kind of picture.
+/// even places. `where`: whose edges count (empty, or too few there: all); a lens is not as sharp
+/// at every distance. Throws Error for any other kind of picture.
 ///
 /// Blur: around the steepest edges, pixels against their distance d from the edge,
 ///     I(d) = low + (high - low) Phi((d - m) / sigma)

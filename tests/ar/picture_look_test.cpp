@@ -128,6 +128,22 @@ TEST(PictureLook, ExposureAndWhiteBalance) {
   }
 }
 
+/// A lens is not as sharp everywhere: what counts is where the board is.
+TEST(PictureLook, OfThePartThatIsAskedFor) {
+  Lens lens;
+  lens.blur_px = 0.8;
+  lens.grain = 2;
+  cv::Mat picture = taken(lens);
+  lens.blur_px = 1.8;
+  const cv::Rect left(0, 0, 240, 360), right(240, 0, 240, 360), sky(0, 0, 30, 30);
+  taken(lens)(right).copyTo(picture(right));
+  EXPECT_NEAR(lookOf(picture, left)->blur_px, 0.8, 0.06);
+  EXPECT_NEAR(lookOf(picture, right)->blur_px, 1.8, 0.1);
+  const auto anywhere = lookOf(picture, sky);  // too few edges there
+  ASSERT_TRUE(anywhere);
+  EXPECT_NEAR(anywhere->blur_px, lookOf(picture)->blur_px, 1e-12);
+}
+
 TEST(PictureLook, SaysNothingOfWhatShowsNothing) {
   EXPECT_FALSE(lookOf(cv::Mat(360, 480, CV_8UC1, cv::Scalar(120))));
   cv::Mat noise(360, 480, CV_8UC1);
