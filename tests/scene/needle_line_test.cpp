@@ -12,15 +12,6 @@
 namespace palpa::scene {
 namespace {
 
-/// Relative luminance of sRGB (WCAG 2.1).
-double luminance(const Pixel& p) {
-  const auto linear = [](int level) {
-    const double c = level / 255.0;
-    return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(p.r) + 0.7152 * linear(p.g) + 0.0722 * linear(p.b);
-}
-
 Pixel between(const Image& image, const Eigen::Vector2d& p) {
   const int u = int(std::floor(p.x())), v = int(std::floor(p.y()));
   const double a = p.x() - u, b = p.y() - v;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "scene/palette.h"
 #include "scene/view/scene_view.h"
 #include "tests/support/simple_patient.h"
 
@@ -26,6 +27,18 @@ inline Pixel at(const Image& image, int u, int v) {
 
 inline int difference(const Pixel& a, const Pixel& b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+/// Relative luminance of sRGB (WCAG 2.1).
+inline double luminance(const Rgb& c) {
+  const auto linear = [](double level) {
+    return level <= 0.03928 ? level / 12.92 : std::pow((level + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(c[0]) + 0.7152 * linear(c[1]) + 0.0722 * linear(c[2]);
+}
+
+inline double luminance(const Pixel& p) {
+  return luminance(Rgb{p.r / 255.0, p.g / 255.0, p.b / 255.0});
 }
 
 /// Number, centroid and bounds of the pixels for which `chosen(u, v)` holds.

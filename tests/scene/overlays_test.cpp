@@ -162,10 +162,6 @@ TEST(Guide, RunsInDashesFromTheEntryToTheTargetAndIsNeverHidden) {
   EXPECT_GT(inside.count, 10) << "it leads through what is opaque";
 }
 
-double luminance(const Rgb& c) {
-  return 0.2126 * c[0] * c[0] + 0.7152 * c[1] * c[1] + 0.0722 * c[2] * c[2];
-}
-
 TEST(ForceColours, AreToldApartByBrightnessAloneInBothSchemes) {
   for (const ForceColours scheme : {ForceColours::paper, ForceColours::safe}) {
     const double reaction = luminance(arrowColour(ForceKind::reaction, scheme)),

@@ -15,13 +15,13 @@ namespace palpa::scene {
 namespace {
 
 /// A flat block of 120 x 100 x 30 mm whose top is y = 0, up is -y.
-const anatomy::Patient& block() {
+const anatomy::Patient& slab() {
   static const anatomy::Patient patient = anatomy::phantomBlock({0.12, 0.10, 0.03}, "block");
   return patient;
 }
 
 const anatomy::TriangleTree& skin() {
-  static const anatomy::TriangleTree tree(block().organs.front().mesh);
+  static const anatomy::TriangleTree tree(slab().organs.front().mesh);
   return tree;
 }
 
@@ -79,7 +79,7 @@ TEST(ToolShadow, TheRingIsWhereTheNeedleWentIn) {
 TEST(GroundShade, IsDarkUnderTheThingAndAtItsFootAndNothingFarOff) {
   const double half = 0.25;
   const GroundShade shade =
-      groundShade({&block().organs.front().mesh}, 0.03, Eigen::Vector2d(0, 0), half);
+      groundShade({&slab().organs.front().mesh}, 0.03, Eigen::Vector2d(0, 0), half);
   const auto at = [&](double x, double z) {
     const auto texel = [&](double p) {
       return static_cast<int>((p + half) / (2 * half) * shade.texels);
@@ -95,7 +95,7 @@ TEST(GroundShade, IsDarkUnderTheThingAndAtItsFootAndNothingFarOff) {
 
 /// A real block is seen through its overlay.
 TEST(Walls, AreNotDrawnOverACamerasPicture) {
-  SceneView view(offscreen(), block(), {320, 240, FixedViews::none});
+  SceneView view(offscreen(), slab(), {320, 240, FixedViews::none});
   const auto middleOn = [&](const Image* picture) {
     SceneState state = straightOn(picture ? *picture : Image());
     state.picture = picture;
