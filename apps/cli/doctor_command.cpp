@@ -128,8 +128,9 @@ Findings examined(const DoctorOptions& o) {
       append(all, table(*station, seenBy(*station, o), o));
   }
   all.push_back(askDrawing([] {
-    return std::string(
-        scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor")->describe());
+    const auto context = scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor");
+    const std::string renderer = context->renderer();
+    return doctor::Drawing{context->describe(), renderer, scene::drawsOnProcessor(renderer)};
   }));
   all.push_back(judgeHeadset(headsetRuntime()));
   all.push_back(recordsOf(o));

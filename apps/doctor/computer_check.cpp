@@ -126,9 +126,15 @@ Finding judgeDate(const std::string& now_utc, const std::string& built_utc) {
   return {"date", State::well, now_utc.substr(0, 10) + " " + now_utc.substr(11, 5) + " UTC"};
 }
 
-Finding askDrawing(const std::function<std::string()>& draw) {
+Finding askDrawing(const std::function<Drawing()>& draw) {
   try {
-    return {"pictures", State::well, "drawn by OpenGL (" + draw() + ")"};
+    const Drawing by = draw();
+    std::string words = "drawn by OpenGL (" + by.context + ")";
+    if (by.on_processor)
+      words += " on the processor, no graphics processor: " + by.renderer;
+    else if (!by.renderer.empty())
+      words += " on " + by.renderer;
+    return {"pictures", State::well, words};
   } catch (const std::exception& e) {
     Finding finding = troubled("pictures", State::ill, e.what());
     finding.fix += ". Sessions without pictures still run: --no-views";

@@ -35,8 +35,14 @@ Finding judgeDisk(const DiskFacts& facts);
 /// file; `built_utc`: when the program was made: earlier than that it cannot be.
 Finding judgeDate(const std::string& now_utc, const std::string& built_utc);
 
-/// Pictures can be drawn. `draw` makes a context and says which, or throws.
-Finding askDrawing(const std::function<std::string()>& draw);
+/// What pictures are drawn with.
+struct Drawing {
+  std::string context;        ///< "X11 window"
+  std::string renderer;       ///< as OpenGL names it; empty: not known
+  bool on_processor = false;  ///< no graphics processor draws
+};
+/// Pictures can be drawn, and by what. `draw` makes a context and says which, or throws.
+Finding askDrawing(const std::function<Drawing()>& draw);
 
 /// A headset's OpenXR runtime, by the file that names it: its library is there. `file` empty: none
 /// is installed.

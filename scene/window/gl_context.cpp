@@ -3,6 +3,9 @@
 #include <vtkLogger.h>
 #include <vtkOpenGLRenderWindow.h>
 
+#include <sstream>
+#include <string>
+
 #include "anatomy/base/error.h"
 #include "scene/window/egl_window.h"
 #include "scene/window/x11_window.h"
@@ -41,6 +44,23 @@ std::unique_ptr<GlContextProvider> offscreen(int width, int height, const char* 
 }  // namespace
 
 void GlContextProvider::makeCurrent() { window()->MakeCurrent(); }
+
+std::string GlContextProvider::renderer() {
+  window()->Render();  // an empty frame: VTK finds OpenGL's functions with the first
+  const std::string name = "OpenGL renderer string:";
+  std::istringstream said(window()->ReportCapabilities());
+  for (std::string line; std::getline(said, line);) {
+    if (!line.starts_with(name)) continue;
+    const std::size_t first = line.find_first_not_of(' ', name.size());
+    return first == std::string::npos ? "" : line.substr(first);
+  }
+  return "";
+}
+
+bool drawsOnProcessor(const std::string& renderer) {
+  return renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe") ||
+         renderer.find("Software Rasterizer") != std::string::npos;
+}
 
 void GlContextProvider::neverWait() {
   static_cast<vtkOpenGLRenderWindow*>(window())->SetSwapControl(0);

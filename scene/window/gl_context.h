@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "scene/window/stop_key.h"
 
@@ -31,8 +32,12 @@ class GlContextProvider {
   /// Of a window at an X server, which hears its space bar past whoever draws; null: none.
   virtual std::unique_ptr<StopKey> stopKey() { return nullptr; }
   void makeCurrent();  ///< on the calling thread
-  void neverWait();    ///< frames do not wait for the monitor's
+  /// What draws, as OpenGL names it: "NVIDIA RTX 4000/PCIe", "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string renderer();
+  void neverWait();  ///< frames do not wait for the monitor's
 };
+/// Whether this renderer is a program that draws on the processor: Mesa's.
+bool drawsOnProcessor(const std::string& renderer);
 std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int height,
                                                  const char* title);
 

@@ -47,9 +47,15 @@ TEST(DoctorsComputer, LoopDiskAndDateAreJudged) {
 }
 
 TEST(DoctorsComputer, DrawingAndHeadset) {
-  expectSays(askDrawing([] { return std::string("surfaceless EGL"); }), State::well,
-             "surfaceless EGL");
-  expectSays(askDrawing([]() -> std::string {
+  expectSays(askDrawing([] {
+               return Drawing{"X11 window", "NVIDIA RTX 4000/PCIe", false};
+             }),
+             State::well, "drawn by OpenGL (X11 window) on NVIDIA RTX 4000/PCIe");
+  expectSays(askDrawing([] {
+               return Drawing{"surfaceless EGL", "llvmpipe (256 bits)", true};
+             }),
+             State::well, "on the processor, no graphics processor: llvmpipe (256 bits)");
+  expectSays(askDrawing([]() -> Drawing {
                throw Error("cannot be made", "OpenGL context", "Install a driver");
              }),
              State::ill, "cannot be made");

@@ -18,6 +18,14 @@ TEST(GlContext, OffscreenNeedsNoDisplayAndHearsNobody) {
   EXPECT_TRUE(input.keys.empty());
 }
 
+TEST(GlContext, SaysWhatDraws) {
+  EXPECT_FALSE(offscreen().renderer().empty());
+  const auto fresh = makeGlContext(Display::offscreen, 320, 240, "nothing drawn yet");
+  EXPECT_EQ(fresh->renderer(), offscreen().renderer());
+  EXPECT_TRUE(drawsOnProcessor("llvmpipe (LLVM 15.0.6, 256 bits)"));
+  EXPECT_FALSE(drawsOnProcessor("NVIDIA RTX 4000/PCIe"));
+}
+
 TEST(GlContext, WindowInAProcessThatDrawsWithEglIsRefusedInWords) {
   offscreen();
   try {
