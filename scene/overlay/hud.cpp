@@ -53,7 +53,7 @@ std::pair<std::string, std::string> halves(const std::string& text) {
 
 }  // namespace
 
-int textSize_px(int window_height) { return std::max(11, (window_height + 24) / 48); }
+int textSize_px(int window_height) { return std::max(kSmallestText_px, (window_height + 24) / 48); }
 
 int stripHeight_px(int window_height) {
   const int text = textSize_px(window_height);
@@ -92,8 +92,9 @@ int HudPainter::startOf(int width, bool right) const {
   return right ? panel.right() - margin_ - width : panel.x + margin_;
 }
 
-/// Whether it is drawn.
+/// Whether it is drawn: what has no room in the panel is not, but for an alarm.
 bool HudPainter::put(Plate plate, const Rect& frame) {
+  if (!hasRoom(frame) && !(plate == Plate::notice && alarms())) return false;
   placed_.push_back({plate, frame});
   return !hidden_.contains(plate);
 }
@@ -122,12 +123,11 @@ void HudPainter::write(const std::string& text, const TextStyle& style, int x, i
 }
 
 TextStyle HudPainter::style(double scale, bool bold, const Rgb& colour) const {
-  return {static_cast<int>(scale * text_ + 0.5), bold, colour};
+  return {std::max(static_cast<int>(scale * text_ + 0.5), kSmallestText_px), bold, colour};
 }
 
 TextStyle HudPainter::fitted(const std::string& text, TextStyle wish, int width) const {
-  constexpr int kSmallest_px = 9;
-  while (wish.size_px > kSmallest_px && textWidth(text, wish) > width) --wish.size_px;
+  while (wish.size_px > kSmallestText_px && textWidth(text, wish) > width) --wish.size_px;
   return wish;
 }
 
@@ -173,8 +173,9 @@ std::vector<HudPainter::Row> HudPainter::readings() const {
 }
 
 void HudPainter::buildReadings() {
-  readings_ = {content_->panel.x, above_, 1, 1};
-  const std::vector<Row> rows = readings();
+  readings_ = all_readings_ = {content_->panel.x, above_, 1, 1};
+  constexpr std::size_t kFew = 3;
+  std::vector<Row> rows = readings();
   if (rows.empty()) return;
   const TextStyle dim = style(0.90, false, colour::kTextDim),
                   bright = style(1, true, colour::kText);
@@ -184,9 +185,13 @@ void HudPainter::buildReadings() {
     values = std::max(values, textWidth(row.value, bright));
   }
   const int pad = text_ * 2 / 3, line = lineHeight(bright) * 11 / 10;
-  const int height = static_cast<int>(rows.size()) * line + pad;
   const int width = names + values + 3 * pad;
-  const Rect frame{startOf(width, lower_right_), above_, width, height};
+  const auto plate = [&](std::size_t count) {
+    return Rect{startOf(width, lower_right_), above_, width, static_cast<int>(count) * line + pad};
+  };
+  all_readings_ = plate(rows.size());
+  if (few_readings_) rows.resize(std::min(rows.size(), kFew));
+  const Rect frame = plate(rows.size());
   readings_ = frame;
   above_ = frame.top() + margin_;
   if (!put(Plate::readings, frame)) return;
@@ -207,7 +212,8 @@ void HudPainter::buildLegend() {
   const std::string scale = content_->cut ? "30 mm = 1 N, cut at 4 N" : "30 mm = 1 N";
   int width = pad;
   for (ForceKind kind : content_->kinds) width += swatch + textWidth(name(kind), bright) + 3 * pad;
-  width += textWidth(scale, dim) + pad;
+  const bool with_scale = width + textWidth(scale, dim) + pad <= panel_.width - 2 * margin_;
+  if (with_scale) width += textWidth(scale, dim) + pad;
   const int height = lineHeight(bright) + pad;
   const Rect frame{startOf(width, lower_right_), above_, width, height};
   above_ = frame.top() + margin_;
@@ -222,7 +228,7 @@ void HudPainter::buildLegend() {
     write(name(kind), bright, x, y, Align::left);
     x += textWidth(name(kind), bright) + 2 * pad;
   }
-  write(scale, dim, x, y, Align::left);
+  if (with_scale) write(scale, dim, x, y, Align::left);
 }
 
 /// "Stiffness  0.12 [colours] 0.31 N/mm  striped: not sure"

@@ -22,8 +22,9 @@ int stripHeight_px(int window_height);
 /// Words over the AR view: the phase at the top left, the mark at the top right; readings at the
 /// bottom left, over the legend of the force arrows; the notice at the bottom centre; of a replay a
 /// strip below them. Where a tool, its tip or its entry would be covered, what is above changes
-/// sides, what is below too, and the notice goes up; a plate that is in the way on either side is
-/// not drawn as long as it is, but for an alarm. They stay where they are until they are in the way
+/// sides, what is below too, and the notice goes up; where all readings have no room, the first
+/// three; a plate that is in the way on either side is not drawn as long as it is, but for an
+/// alarm. They stay where they are until they are in the way
 /// again.
 class HudPainter {
  public:
@@ -51,10 +52,12 @@ class HudPainter {
   };
   void build();
   void makeWay(const Surroundings& surroundings);
+  bool move(const Surroundings& surroundings);
   bool inTheWay(Plate first, Plate last, bool other_side, const Surroundings& surroundings) const;
   int startOf(int width, bool right) const;
   bool put(Plate plate, const Rect& frame);
   bool alarms() const;
+  bool hasRoom(const Rect& frame) const;
   void buildPhase();
   void buildReadings();
   void buildMark();
@@ -81,7 +84,8 @@ class HudPainter {
   std::vector<Placed> placed_;  ///< drawn or not
   std::set<Plate> hidden_;
   bool upper_right_ = false, lower_right_ = false;  ///< phase; readings and legend
-  bool notice_up_ = false;
+  bool notice_up_ = false, few_readings_ = false;
+  Rect all_readings_;      ///< where all of them would lie
   Rect notice_elsewhere_;  ///< where it would lie if it went up, or down again
 };
 

@@ -15,18 +15,14 @@ bool HudPainter::inTheWay(Plate first, Plate last, bool other_side,
   });
 }
 
+bool HudPainter::hasRoom(const Rect& frame) const {
+  return frame.x >= panel_.x && frame.right() <= panel_.right() && frame.y >= panel_.y &&
+         frame.top() <= panel_.top();
+}
+
 void HudPainter::makeWay(const Surroundings& surroundings) {
-  const auto better = [&](Plate first, Plate last) {
-    return inTheWay(first, last, false, surroundings) && !inTheWay(first, last, true, surroundings);
-  };
-  const bool turn_upper = better(Plate::phase, Plate::mark),
-             turn_lower = better(Plate::legend, Plate::readings),
-             lift = inTheWay(Plate::notice, Plate::notice, false, surroundings) &&
-                    isClear(notice_elsewhere_, surroundings, panel_);
-  upper_right_ ^= turn_upper;
-  lower_right_ ^= turn_lower;
-  notice_up_ ^= lift;
-  if (turn_upper || turn_lower || lift) build();
+  constexpr int kAtMost = 4;  // one move may make room for another
+  for (int i = 0; i < kAtMost && move(surroundings); ++i) build();
   std::set<Plate> hidden;
   for (const Placed& p : placed_)
     if (!isClear(p.frame, surroundings, panel_) && !(p.plate == Plate::notice && alarms()))
@@ -34,6 +30,24 @@ void HudPainter::makeWay(const Surroundings& surroundings) {
   if (hidden == hidden_) return;
   hidden_ = std::move(hidden);
   build();
+}
+
+/// Whether anything is to lie elsewhere than it does.
+bool HudPainter::move(const Surroundings& surroundings) {
+  const auto better = [&](Plate first, Plate last) {
+    return inTheWay(first, last, false, surroundings) && !inTheWay(first, last, true, surroundings);
+  };
+  const bool turn_upper = better(Plate::phase, Plate::mark),
+             turn_lower = better(Plate::legend, Plate::readings),
+             lift = inTheWay(Plate::notice, Plate::notice, false, surroundings) &&
+                    isClear(notice_elsewhere_, surroundings, panel_);
+  const bool all_fit = !hasRoom(all_readings_) || isClear(all_readings_, surroundings, panel_);
+  const bool resize = !turn_lower && few_readings_ == all_fit;
+  upper_right_ ^= turn_upper;
+  lower_right_ ^= turn_lower;
+  notice_up_ ^= lift;
+  few_readings_ ^= resize;
+  return turn_upper || turn_lower || lift || resize;
 }
 
 std::vector<Rect> HudPainter::plates() const {

@@ -37,6 +37,8 @@ class vtkTextProperty;
 
 namespace palpa::scene {
 
+inline constexpr int kSmallestText_px = 11;  ///< smaller text is not drawn
+
 struct TextStyle {
   int size_px = 14;
   bool bold = false;

@@ -86,26 +86,42 @@ void OrthoView::put(const std::string& words, const TextStyle& style, int x, int
   const int width = textWidth(words, style) + style.size_px * 2 / 3;
   const int height = lineHeight(style);
   const int margin = style.size_px / 3;
-  x = std::clamp(x, width / 2 + margin, where_.width - width / 2 - margin);
-  y = std::clamp(y, height / 2 + margin, where_.height - height / 2 - margin);
-  plates_.add({x - width / 2, y - height / 2, width, height}, colour::kPlate, 3);
+  x = std::max(std::min(x, where_.width - width / 2 - margin), width / 2 + margin);
+  y = std::max(std::min(y, where_.height - height / 2 - margin), height / 2 + margin);
+  const Rect plate{x - width / 2, y - height / 2, width, height};
+  if (!claim(plate)) return;
+  plates_.add(plate, colour::kPlate, 3);
   words_.push_back(std::make_unique<Label>(*renderer_));
   words_.back()->set(words, style, x, y, Align::centre);
 }
 
 void OrthoView::layoutWords(int window_height) {
   const int text = textSize_px(window_height);
-  const TextStyle caption{std::max(10, text * 4 / 5), true, colour::kText};
-  const TextStyle letter{std::max(9, text * 3 / 4), false, colour::kText};
+  const TextStyle caption{std::max(kSmallestText_px, text * 4 / 5), true, colour::kText};
+  const TextStyle letter{std::max(kSmallestText_px, text * 3 / 4), false, colour::kText};
   const int w = where_.width, h = where_.height;
   words_.clear();
   plates_.clear();
+  claimed_.clear();
+  putScaleBar(letter);
   put(aspect_.caption, caption, 0, h);  // held inside by put
   put(aspect_.left, letter, 0, h / 2);
   put(aspect_.right, letter, w, h / 2);
   put(aspect_.top, letter, w / 2, h);
   put(aspect_.bottom, letter, w / 2, 0);
-  putScaleBar(letter);
+}
+
+/// Words that have no room, or would lie over others, are left out.
+bool OrthoView::claim(const Rect& plate) {
+  const bool has_room =
+      plate.x >= 0 && plate.y >= 0 && plate.right() <= where_.width && plate.top() <= where_.height;
+  const bool taken = std::any_of(claimed_.begin(), claimed_.end(), [&](const Rect& other) {
+    return plate.x < other.right() && other.x < plate.right() && plate.y < other.top() &&
+           other.y < plate.top();
+  });
+  if (!has_room || taken) return false;
+  claimed_.push_back(plate);
+  return true;
 }
 
 void OrthoView::putScaleBar(const TextStyle& style) {
@@ -114,6 +130,7 @@ void OrthoView::putScaleBar(const TextStyle& style) {
   const int margin = style.size_px / 3, line = lineHeight(style);
   const int width = std::max(bar, textWidth(words, style)) + 2 * margin;
   const Rect plate{where_.width - width - margin, margin, width, line + margin + 2};
+  if (!claim(plate)) return;
   plates_.add(plate, colour::kPlate, 3);
   const Rgb& ink = colour::kText;
   const int middle = plate.x + width / 2;

@@ -48,6 +48,7 @@ class OrthoView {
   double metresAcross() const;  ///< at the panel's width
   void layoutWords(int window_height);
   void putScaleBar(const TextStyle& style);
+  bool claim(const Rect& plate);
   void put(const std::string& words, const TextStyle& style, int x, int y);
 
   vtkNew<vtkRenderer> renderer_;
@@ -66,6 +67,7 @@ class OrthoView {
   Plates plates_;
   vtkSmartPointer<vtkActor> trail_;
   std::vector<std::unique_ptr<Label>> words_;
+  std::vector<Rect> claimed_;  ///< their plates
 };
 
 }  // namespace palpa::scene

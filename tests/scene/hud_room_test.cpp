@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <vtkNew.h>
+#include <vtkPropCollection.h>
 #include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +77,27 @@ TEST_P(HudRoom, NoPlateCoversTipOrToolInEitherHand) {
         if (!isClear(plate, around, panel())) ++would_cover;
     }
   EXPECT_GT(would_cover, 50) << "of what lies where it always did";
+}
+
+/// What has no room for that is not drawn.
+TEST_P(HudRoom, NoTextIsSmallerThanElevenPixelsNorOutsideItsPanel) {
+  show({});
+  const Rect p = panel();
+  for (const Rect& plate : hud_.plates()) {
+    EXPECT_GE(plate.x, p.x);
+    EXPECT_LE(plate.right(), p.right());
+    EXPECT_GE(plate.y, p.y);
+    EXPECT_LE(plate.top(), p.top());
+  }
+  int words = 0;
+  vtkPropCollection* props = renderer_->GetViewProps();
+  for (int i = 0; i < props->GetNumberOfItems(); ++i) {
+    auto* text = vtkTextActor::SafeDownCast(props->GetItemAsObject(i));
+    if (!text || !text->GetVisibility()) continue;
+    EXPECT_GE(text->GetTextProperty()->GetFontSize(), 11) << text->GetInput();
+    ++words;
+  }
+  EXPECT_GT(words, 3);
 }
 
 TEST_P(HudRoom, NothingMovesThatIsNotInTheWay) {
