@@ -147,19 +147,25 @@ void HudPainter::buildMark() {
   write(text, look, frame.x + width / 2, frame.y + height / 2, Align::centre);
 }
 
+/// In one line, or in two where it is too long for one.
 void HudPainter::buildPhase() {
   const std::string& text = content_->text.phase;
   if (text.empty()) return;
-  const int pad = text_ * 2 / 3;
+  const int pad = text_ * 2 / 3, room = panel_.width - 2 * (margin_ + pad);
+  const TextStyle wish = style(1.15, true, colour::kText), one_line = fitted(text, wish, room);
+  const auto [first, second] =
+      textWidth(text, one_line) > room ? halves(text) : std::pair(text, std::string());
   const TextStyle look =
-      fitted(text, style(1.15, true, colour::kText), content_->panel.width - 2 * (margin_ + pad));
-  const int height = lineHeight(look) + pad;
-  const int width = textWidth(text, look) + 2 * pad;
+      second.empty() ? one_line : fitted(second, fitted(first, wish, room), room);
+  const int line = lineHeight(look), height = (second.empty() ? 1 : 2) * line + pad;
+  const int width = std::max(textWidth(first, look), textWidth(second, look)) + 2 * pad;
   const Rect frame{startOf(width, upper_right_), below_ - height, width, height};
   below_ = frame.y - margin_ / 2;
   if (!put(Plate::phase, frame)) return;
   plates_.add(frame, colour::kPlate, pad / 2);
-  write(text, look, frame.x + pad, frame.y + height / 2, Align::left);
+  const int top = second.empty() ? frame.y + height / 2 : frame.top() - pad / 2 - line / 2;
+  write(first, look, frame.x + pad, top, Align::left);
+  if (!second.empty()) write(second, look, frame.x + pad, top - line, Align::left);
 }
 
 std::vector<HudPainter::Row> HudPainter::readings() const {
