@@ -134,8 +134,9 @@ struct Timeline {
   };
   double at = 0;
   std::vector<Tick> ticks;
-  std::string time;  ///< "0:12.4 of 0:31.0"
-  std::string rate;  ///< "x 0.5", "paused"
+  std::string time;   ///< "0:12.4"
+  std::string whole;  ///< " of 0:31.0", left out where the strip would be short
+  std::string rate;   ///< "x 0.5", "paused"
   bool operator==(const Timeline&) const = default;
 };
 

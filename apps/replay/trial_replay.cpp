@@ -66,7 +66,8 @@ void TrialReplay::addStrip(scene::SceneState& state) const {
   const double length = std::max(length_s_, 1e-9);
   strip.at = at_s_ / length;
   for (const StripMark& mark : trial_.marks) strip.ticks.push_back({mark.t_s / length, mark.tone});
-  strip.time = clockWords(at_s_) + " of " + clockWords(length_s_);
+  strip.time = clockWords(at_s_);
+  strip.whole = " of " + clockWords(length_s_);
   strip.rate = rate_;
   state.hud.timeline = strip;
   const std::string words = wordsAt(trial_.marks, at_s_);

@@ -279,12 +279,14 @@ void HudPainter::buildTimeline() {
   const Rect frame{content_->panel.x + margin_, above_, content_->panel.width - 2 * margin_,
                    height};
   plates_.add(frame, colour::kPlate, pad / 2);
-  const int middle = frame.y + height / 2, widest = textWidth("88:88.8 of 88:88.8", look),
-            rate = textWidth("paused", look);
-  write(strip.time, look, frame.x + pad, middle, Align::left);
+  const int middle = frame.y + height / 2, rate = textWidth("paused", look);
+  const auto left_for_track = [&](int time) { return frame.width - time - rate - 5 * pad; };
+  int time = textWidth("88:88.8 of 88:88.8", look);
+  const bool with_whole = left_for_track(time) > frame.width / 4;
+  if (!with_whole) time = textWidth("88:88.8", look);
+  write(strip.time + (with_whole ? strip.whole : ""), look, frame.x + pad, middle, Align::left);
   write(strip.rate, look, frame.right() - pad, middle, Align::right);
-  const Rect track{frame.x + widest + 2 * pad, middle - 2,
-                   std::max(1, frame.width - widest - rate - 5 * pad), 4};
+  const Rect track{frame.x + time + 2 * pad, middle - 2, std::max(1, left_for_track(time)), 4};
   const auto across = [&](double share) { return track.x + static_cast<int>(share * track.width); };
   plates_.add(track, opaque(colour::kTextDim), 0);
   plates_.add({track.x, track.y, std::max(1, across(strip.at) - track.x), track.height},

@@ -157,7 +157,7 @@ TEST(StationSession, RealThingsHideWhatIsDrawnBehindThem) {
     const cv::Rect large(0, 60, view.cols * 65 / 100, view.rows / 2);
     std::vector<cv::Mat> bgr;
     cv::split(view(large), bgr);
-    return cv::countNonZero(bgr[2] - bgr[0] > 25);
+    return cv::countNonZero(bgr[2] - bgr[0] > 15);
   };
   EXPECT_GT(coloured(bare), 40'000);
   EXPECT_LT(coloured(hidden), coloured(bare) / 3);

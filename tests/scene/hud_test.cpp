@@ -73,10 +73,12 @@ TEST_P(HudFrame, AnAlarmIsSeenWhereverTheToolIs) {
     }
 }
 
-TEST_P(HudFrame, AReplaysStripLiesAtTheBottomOfTheArViewAndMovesOn) {
+class HudStrip : public HudFrame {};
+
+TEST_P(HudStrip, LiesAtTheBottomOfTheArViewAndMovesOn) {
   state_.hud.force = state_.hud.time = "";  // they would move up
   const Image before = frame();
-  state_.hud.timeline = Timeline{0.25, {{0.9, TickTone::bad}}, "0:02.5 of 0:10.0", "x 1"};
+  state_.hud.timeline = Timeline{0.25, {{0.9, TickTone::bad}}, "0:02.5", " of 0:10.0", "x 1"};
   const Image quarter = frame();
   const Blob strip = changed(before, quarter);
   EXPECT_GT(strip.top, 0.85 * height());
@@ -125,6 +127,12 @@ TEST_P(HudFrame, WordsStayLegibleOnAWhiteAndOnABlackPicture) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, HudFrame,
                          testing::Values(std::pair(1280, 720), std::pair(640, 480)),
+                         [](const auto& size) { return "h" + std::to_string(size.param.second); });
+
+/// Also as small as a film is made.
+INSTANTIATE_TEST_SUITE_P(Sizes, HudStrip,
+                         testing::Values(std::pair(1280, 720), std::pair(640, 480),
+                                         std::pair(320, 240)),
                          [](const auto& size) { return "h" + std::to_string(size.param.second); });
 
 }  // namespace
