@@ -101,6 +101,15 @@ struct RenderBenchOptions {
 /// surfaces beside depth peeling. One JSON object a line. Throws Error where nothing can be drawn.
 void benchRender(const RenderBenchOptions& options);
 
+struct HeadsetBenchOptions {
+  int frames = 1000;
+};
+
+/// What a frame for two eyes costs the processor, all threads, while the head moves as of somebody
+/// at work: with everything but the drawing, which Mesa's drivers leave out when they are told to
+/// (GALLIUM_NOOP). One JSON object. In a process that has drawn nothing yet.
+void benchHeadset(const HeadsetBenchOptions& options);
+
 struct SessionBenchOptions {
   int trials = 4;
   std::uint64_t seed = 1;

@@ -126,6 +126,16 @@ void addRenderBench(CLI::App& bench) {
   render->callback([options] { bench::benchRender(*options); });
 }
 
+void addHeadsetBench(CLI::App& bench) {
+  CLI::App* headset = bench.add_subcommand(
+      "headset", "What a headset's frame costs the processor, with everything but the drawing");
+  headset->footer("Example:\n  palpa bench headset\n  palpa bench headset --frames 100");
+  const auto options = std::make_shared<bench::HeadsetBenchOptions>();
+  headset->add_option("--frames", options->frames, "Frames (default 1000)")
+      ->check(inRange(1, 1'000'000));
+  headset->callback([options] { bench::benchHeadset(*options); });
+}
+
 void addSession(CLI::App& bench) {
   CLI::App* session = bench.add_subcommand(
       "session", "How many times real time a simulated session runs, how soon it starts, and why");
@@ -263,6 +273,7 @@ void addBench(CLI::App& program) {
   addObject(*bench);
   addRecordsBench(*bench);
   addRenderBench(*bench);
+  addHeadsetBench(*bench);
   addSession(*bench);
   addStop(*bench);
   addTracking(*bench);

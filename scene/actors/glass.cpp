@@ -7,8 +7,10 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkTypeInt64Array.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "scene/palette.h"
 #include "scene/renderer_setup.h"
@@ -44,12 +46,47 @@ std::vector<Eigen::Vector3f> middlesOf(vtkPolyData& surface,
   return middles;
 }
 
+/// Room for so many triangles; their corners are to be filled in.
+vtkSmartPointer<vtkCellArray> listOf(std::size_t triangles) {
+  const auto count = static_cast<vtkIdType>(triangles);
+  vtkNew<vtkTypeInt64Array> offsets, corners;
+  offsets->SetNumberOfValues(count + 1);
+  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, 3 * i);
+  corners->SetNumberOfValues(3 * count);
+  corners->FillValue(0);
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, corners);
+  return cells;
+}
+
 /// Of the box's nearest point.
 double nearest(const Vec3& low, const Vec3& high, const Vec3& eye) {
   return (eye.cwiseMax(low).cwiseMin(high) - eye).norm();
 }
 
 }  // namespace
+
+const std::vector<std::uint32_t>& FarFirst::order(const std::vector<float>& distances) {
+  constexpr int kBits = 8, kDigits = 1 << kBits;
+  const auto [near, far] = std::minmax_element(distances.begin(), distances.end());
+  order_.resize(distances.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  if (near == far || *near == *far) return order_;
+  const float farthest = *far, scale = 65535 / (*far - *near);
+  keys_.resize(distances.size());
+  for (std::size_t i = 0; i < keys_.size(); ++i)
+    keys_[i] = static_cast<std::uint16_t>(scale * (farthest - distances[i]));
+  next_.resize(distances.size());
+  for (const int shift : {0, kBits}) {
+    std::array<std::uint32_t, kDigits + 1> begin{};
+    const auto digit = [&](std::uint32_t i) { return keys_[i] >> shift & (kDigits - 1); };
+    for (const std::uint32_t i : order_) ++begin[static_cast<std::size_t>(digit(i) + 1)];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    for (const std::uint32_t i : order_) next_[begin[static_cast<std::size_t>(digit(i))]++] = i;
+    order_.swap(next_);
+  }
+  return order_;
+}
 
 Glass::Glass(vtkRenderWindow& window, vtkRenderer& behind)
     : window_(window), sorted_for_(Vec3::Zero()) {
@@ -68,6 +105,8 @@ void Glass::add(vtkActor* actor, vtkPolyData* surface) {
   added.triangles = trianglesOf(*surface);
   added.middles = middlesOf(*surface, added.triangles);
   const double* b = surface->GetBounds();
+  added.sorted = listOf(added.triangles.size());
+  surface->SetPolys(added.sorted);
   added.low = {b[0], b[2], b[4]};
   added.high = {b[1], b[3], b[5]};
   // VTK's own translucent pass knows no order; its opaque pass draws one actor after the other, and
@@ -87,21 +126,15 @@ void Glass::remove(vtkActor* actor) {
   renderer_->RemoveActor(actor);
 }
 
-void Glass::sort(Surface& surface, const Vec3& eye) {
+void Glass::sort(const Surface& surface, const Vec3& eye) {
   const Eigen::Vector3f from = eye.cast<float>();
-  std::vector<std::pair<float, std::uint32_t>> far_first(surface.triangles.size());
-  for (std::size_t i = 0; i < far_first.size(); ++i)
-    far_first[i] = {-(surface.middles[i] - from).squaredNorm(), static_cast<std::uint32_t>(i)};
-  std::sort(far_first.begin(), far_first.end());
-  vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(static_cast<vtkIdType>(far_first.size()),
-                       static_cast<vtkIdType>(3 * far_first.size()));
-  for (const auto& [distance, i] : far_first) {
-    const vtkIdType corners[] = {surface.triangles[i][0], surface.triangles[i][1],
-                                 surface.triangles[i][2]};
-    cells->InsertNextCell(3, corners);
-  }
-  surface.polys->SetPolys(cells);
+  distances_.resize(surface.middles.size());
+  for (std::size_t i = 0; i < distances_.size(); ++i)
+    distances_[i] = (surface.middles[i] - from).norm();
+  vtkIdType* corner = surface.sorted->GetConnectivityArray64()->GetPointer(0);
+  for (const std::uint32_t i : far_first_.order(distances_))
+    corner = std::copy_n(surface.triangles[i].data(), 3, corner);
+  surface.sorted->Modified();
 }
 
 void Glass::order(const Vec3& eye) {
@@ -116,7 +149,7 @@ void Glass::look(const Vec3& eye) {
   const double distance =
       surfaces_.empty() ? 0 : (0.5 * (surfaces_.front().low + surfaces_.front().high) - eye).norm();
   if (sorted_ && (eye - sorted_for_).norm() < kEyeMoved * distance) return;
-  for (Surface& surface : surfaces_) sort(surface, eye);
+  for (const Surface& surface : surfaces_) sort(surface, eye);
   order(eye);
   sorted_for_ = eye;
   sorted_ = true;

@@ -10,11 +10,25 @@
 #include "anatomy/geometry/pose.h"
 
 class vtkActor;
+class vtkCellArray;
 class vtkPolyData;
 class vtkRenderer;
 class vtkRenderWindow;
 
 namespace palpa::scene {
+
+/// An order by distance, in time that grows with the number alone (radix sort, two digits of eight
+/// bits): what lies closer together than 1/65535 of the whole range counts as equally far.
+class FarFirst {
+ public:
+  /// Indices of these distances, the largest first, of equal ones the first first; stays until the
+  /// next one.
+  const std::vector<std::uint32_t>& order(const std::vector<float>& distances);
+
+ private:
+  std::vector<std::uint16_t> keys_;
+  std::vector<std::uint32_t> order_, next_;
+};
 
 /// Translucent surfaces over what a renderer has drawn, blended from the far to the near, in a pass
 /// of its own that keeps colours and depths. Within a surface the triangles go by the distance of
@@ -45,13 +59,16 @@ class Glass {
     std::vector<std::array<long long, 3>> triangles;
     std::vector<Eigen::Vector3f> middles;
     Vec3 low, high;
+    vtkSmartPointer<vtkCellArray> sorted;  ///< what is drawn: the triangles in their order
   };
-  void sort(Surface& surface, const Vec3& eye);
+  void sort(const Surface& surface, const Vec3& eye);
   void order(const Vec3& eye);
 
   vtkRenderWindow& window_;
   vtkNew<vtkRenderer> renderer_;
   std::vector<Surface> surfaces_;
+  FarFirst far_first_;
+  std::vector<float> distances_;
   Vec3 sorted_for_;
   bool sorted_ = false;
 };

@@ -5,6 +5,9 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
+
+#include "anatomy/base/random.h"
 #include "scene/actors/organ_actors.h"
 #include "scene/renderer_setup.h"
 #include "scene/view/ar_camera.h"
@@ -90,6 +93,28 @@ TEST_F(TwoWays, TheOrderInTheFileDoesNotMatter) {
   const Pose X_CA = lookAt({0.2, -0.45, 0.1}, {0, 0, 0});
   EXPECT_LT(rms(draw(nested(), X_CA, false), draw(turned, X_CA, false)),
             0.002);  // half a level of 255: where two surfaces' centres are equally far
+}
+
+TEST(FarFirst, IsAnOrderByDistanceToASmallStep) {
+  RandomStream random(1, "far first");
+  for (const int count : {0, 1, 2, 10'000}) {
+    std::vector<float> distances;
+    for (int i = 0; i < count; ++i)
+      distances.push_back(i % 7 == 0 ? 0.4f : static_cast<float>(random.uniform(0.3, 0.9)));
+    FarFirst by_distance;
+    const std::vector<std::uint32_t> order = by_distance.order(distances);
+    std::vector<std::uint32_t> sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) ASSERT_EQ(sorted[i], i);
+    ASSERT_EQ(order.size(), distances.size());
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const float before = distances[order[i - 1]], now = distances[order[i]];
+      EXPECT_LT(now, before + 1e-5f);
+      if (now == before) {
+        EXPECT_GT(order[i], order[i - 1]);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -8,13 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/error.h"
 #include "anatomy/base/quantile.h"
 #include "apps/bench/bench_patients.h"
 #include "apps/bench/pictures/plain_scene.h"
+#include "apps/bench/pictures/session_frames.h"
 #include "apps/bench/pictures/tracking_scene.h"
 #include "apps/bench/timing.h"
+#include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 #include "apps/trial/picture_writer.h"
@@ -29,57 +33,6 @@ namespace palpa::bench {
 namespace {
 
 using nlohmann::json;
-constexpr int kPictureWidth = 640, kPictureHeight = 480;
-
-std::size_t trianglesOf(const anatomy::Patient& patient) {
-  std::size_t all = 0;
-  for (const anatomy::OrganSurface& organ : patient.organs) all += organ.mesh.triangles.size();
-  return all;
-}
-
-/// A session's frames: picture, translucent skin, needle, arrows, words. Number i of a slow sway.
-class SessionFrames {
- public:
-  explicit SessionFrames(const anatomy::Patient& patient)
-      : entry_A_(patient.landmark(anatomy::landmark::kEntry)) {
-    state_.picture = &picture_;
-    state_.registered = true;
-    state_.camera = {kPictureWidth, kPictureHeight, 600, 600, 319.5, 239.5};
-    state_.look = {.blur_px = 0.7,
-                   .black = {0.1, 0.1, 0.1},
-                   .white = {0.9, 0.9, 0.9},
-                   .grain_black = 0.01,
-                   .grain_white = 0.01};
-  }
-
-  const scene::SceneState& at(int i) {
-    const double sway = std::sin(0.1 * i);
-    for (std::size_t k = 0; k < picture_.pixels.size(); k += 97)
-      picture_.pixels[k] = static_cast<std::uint8_t>(i);
-    state_.X_CA = lookAt(entry_A_ + Vec3(0.002 * sway + sideways_, -0.45, 0.10), entry_A_);
-    state_.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(),
-                           entry_A_ + Vec3(0, 0.01 * sway, 0));
-    state_.forces = {
-        {scene::ForceKind::reaction, state_.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
-    state_.hud.phase = "phase 2: advance to the vein";
-    char force[16];
-    std::snprintf(force, sizeof force, "%.1f N",
-                  1 + 0.01 * (i / 6 % 10));  // words change a few times a second
-    state_.hud.force = force;
-    return state_;
-  }
-  /// So far that translucent surfaces are sorted anew.
-  void moveEye(double sideways) { sideways_ = sideways; }
-
- private:
-  scene::Image picture_{
-      kPictureWidth, kPictureHeight, 3,
-      std::vector<std::uint8_t>(std::size_t{3} * kPictureWidth * kPictureHeight, 120)};
-  scene::SceneState state_;
-  Vec3 entry_A_;
-  double sideways_ = 0;
-};
-
 /// The patient alone in one renderer, translucent our way or by peeling.
 class Translucent {
  public:
@@ -236,14 +189,29 @@ void benchSteadiness(const anatomy::Patient& patient, const RenderBenchOptions& 
         params);
 }
 
+/// In a process of its own: it may not have drawn before.
+void benchHeadsetApart(bool quick) {
+  const os::TemporaryFolder folder("palpa-bench-");
+  const auto log = folder.path() / "headset.jsonl";
+  const int code =
+      os::runToEnd({"bench", "headset", "--frames", quick ? "200" : "1000"}, log).exit_code;
+  std::ifstream lines(log);
+  std::string said;
+  std::getline(lines, said);
+  if (code != 0 || !said.starts_with('{'))
+    throw Error("palpa bench headset ended with " + std::to_string(code),
+                said.empty() ? "without a word" : said, "Run it alone");
+  std::printf("%s\n", said.c_str());
+}
+
 /// Shares of a frame's time.
 void benchShares(const anatomy::Patient& patient, scene::SceneView& view, const json& params) {
   SessionFrames frames(patient);
   const double ours = timeQueries(64, [&](int i) { view.show(frames.at(i)); }).median_us;
   const double capture = timeQueries(16, [&](int) { view.capture(); }).median_us;
   TrackingBenchOptions tracking;
-  tracking.width = kPictureWidth;
-  tracking.height = kPictureHeight;
+  tracking.width = SessionFrames::kWidth;
+  tracking.height = SessionFrames::kHeight;
   const TrackingScene pictures(tracking);
   const cv::Mat picture = pictures.still(TrackingScene::view(0.5, 0.6, 0.4, 0), 0);
   ar::BoardTracker tracker(pictures.board(), pictures.camera());
@@ -273,6 +241,7 @@ void benchRender(const RenderBenchOptions& options) {
     benchShares(patient, view, params);
   }
   benchTranslucency(*context->window(), patient, blocks, params);
+  benchHeadsetApart(options.quick);
 }
 
 }  // namespace palpa::bench
