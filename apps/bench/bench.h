@@ -110,6 +110,15 @@ struct HeadsetBenchOptions {
 /// (GALLIUM_NOOP). One JSON object. In a process that has drawn nothing yet.
 void benchHeadset(const HeadsetBenchOptions& options);
 
+struct ObserverBenchOptions {
+  int poses = 200;  ///< before the puncture, and as many after it
+};
+
+/// What the AR view alone tells of a needle: the share of poses in which a program that gets only
+/// pixels (`pictures/observer.h`) tells the tip's height above the skin within 3 mm, and its depth
+/// behind it within 5 mm; the same without shadow and ring. One JSON object a line.
+void benchObserver(const ObserverBenchOptions& options);
+
 struct SessionBenchOptions {
   int trials = 4;
   std::uint64_t seed = 1;

@@ -136,6 +136,21 @@ void addHeadsetBench(CLI::App& bench) {
   headset->callback([options] { bench::benchHeadset(*options); });
 }
 
+void addObserver(CLI::App& bench) {
+  CLI::App* observer = bench.add_subcommand("observer",
+                                            "What can be read from one AR view: a program that "
+                                            "gets only its pixels tells how far off the "
+                                            "skin a needle is, and how deep");
+  observer->footer(
+      "Example:\n  palpa bench observer > observer.jsonl\n  palpa bench observer --poses 20");
+  const auto options = std::make_shared<bench::ObserverBenchOptions>();
+  observer
+      ->add_option("--poses", options->poses,
+                   "Poses before the puncture, and after it (default 200)")
+      ->check(inRange(1, 100'000));
+  observer->callback([options] { bench::benchObserver(*options); });
+}
+
 void addSession(CLI::App& bench) {
   CLI::App* session = bench.add_subcommand(
       "session", "How many times real time a simulated session runs, how soon it starts, and why");
@@ -274,6 +289,7 @@ void addBench(CLI::App& program) {
   addRecordsBench(*bench);
   addRenderBench(*bench);
   addHeadsetBench(*bench);
+  addObserver(*bench);
   addSession(*bench);
   addStop(*bench);
   addTracking(*bench);

@@ -7,6 +7,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +15,16 @@
 
 #include "anatomy/geometry/dense_solvers.h"
 #include "scene/palette.h"
+#include "scene/renderer_setup.h"
 
 namespace palpa::scene {
 
-EdgedLines::EdgedLines(vtkRenderer& renderer, const Rgb& colour, double width_px) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(shape_);
+EdgedLines::EdgedLines(vtkRenderer& renderer, const Rgb& colour, double width_px)
+    : mapper_(makePassMapper()) {
+  mapper_->SetInputData(shape_);
   const Rgb dark = colour::kPanel;
   const auto set = [&](vtkActor* actor, const Rgb& c) {
-    actor->SetMapper(mapper);
+    actor->SetMapper(mapper_);
     actor->GetProperty()->SetColor(c[0], c[1], c[2]);
     actor->GetProperty()->LightingOff();
     actor->VisibilityOff();
@@ -51,6 +53,13 @@ void EdgedLines::show(const std::vector<std::vector<Vec3>>& lines_A) {
   shape_->SetLines(cells);
   edge_->SetVisibility(!lines_A.empty());
   line_->SetVisibility(!lines_A.empty());
+}
+
+void EdgedLines::drawThrough() {
+  setWrites(*mapper_, true, false);
+  for (vtkActor* actor : {edge_.Get(), line_.Get()})
+    actor->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Depth::Impl", true,
+                                                             "gl_FragDepth = 0.0;\n", false);
 }
 
 void EdgedLines::hide() {

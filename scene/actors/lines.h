@@ -12,6 +12,7 @@
 
 class vtkActor;
 class vtkPolyData;
+class vtkPolyDataMapper;
 class vtkRenderer;
 
 namespace palpa::scene {
@@ -24,12 +25,15 @@ class EdgedLines {
   /// Each entry a line through its points.
   void show(const std::vector<std::vector<Vec3>>& lines_A);
   void setWidth(double width_px, double edge_px = 1.25);
+  /// Over what is nearer as well, but for what its renderer draws later.
+  void drawThrough();
   void hide();
   void setVisible(bool visible);  ///< what was shown last
   bool visible() const;
 
  private:
   vtkNew<vtkPolyData> shape_;
+  vtkSmartPointer<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> edge_, line_;
 };
 

@@ -8,7 +8,8 @@
 namespace palpa::scene {
 namespace {
 
-constexpr double kLeast = 2.2, kWideEnough = 5, kEdge = 1.5;  // units of the screen
+constexpr double kLeast = 2.2, kWideEnough = 5, kEdge = 1.5, kThin = 1.4,
+                 kThinEdge = 0.8;  // units of the screen
 
 /// In front of the needle's own surface.
 Vec3 toward(const Vec3& eye_A, const Vec3& p_A) {
@@ -23,20 +24,34 @@ void show(EdgedLines& line, const Vec3& eye_A, const Vec3& from_A, const Vec3& t
 }  // namespace
 
 NeedleLine::NeedleLine(vtkRenderer& on_skin)
-    : outside_(on_skin, colour::kNeedle, kLeast), inside_(on_skin, colour::kNeedleInside, kLeast) {}
+    : hidden_(on_skin, colour::kNeedleInside, kThin),
+      outside_(on_skin, colour::kNeedle, kLeast),
+      inside_(on_skin, colour::kNeedleInside, kLeast) {
+  hidden_.drawThrough();
+}
 
 void NeedleLine::hide() {
   outside_.hide();
   inside_.hide();
+  hidden_.hide();
 }
 
 void NeedleLine::update(const SceneState& state, const std::optional<Vec3>& entry_A,
-                        const Pose& X_CA, double focal_px, double unit_px, double soft_px) {
+                        const Pose& X_CA, double focal_px, double unit_px, double soft_px,
+                        bool see_inside) {
   const InstrumentSize size;
+  hidden_.hide();
   const Vec3 tip_A = state.X_AT.translation(), hub_A = state.X_AT * Vec3(0, 0, -size.needle_length);
   const double depth = std::max((X_CA * hub_A).z(), 1e-3);
+  if (entry_A && see_inside) {
+    hidden_.setWidth(kThin * unit_px + soft_px, kThinEdge * unit_px + soft_px);
+    hidden_.show(dashes(tip_A, *entry_A));
+  }
   const double drawn_px = 2 * size.needle_radius * focal_px / depth;
-  if (drawn_px > kWideEnough * unit_px) return hide();
+  if (drawn_px > kWideEnough * unit_px) {
+    outside_.hide();
+    return inside_.hide();
+  }
   const double width_px = std::max(drawn_px, kLeast * unit_px + soft_px);
   for (EdgedLines* line : {&outside_, &inside_})
     line->setWidth(width_px, kEdge * unit_px + soft_px);

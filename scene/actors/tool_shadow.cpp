@@ -50,10 +50,6 @@ void addEvenly(double from, double to, double radius, double step,
 
 }  // namespace
 
-Vec3 towardLight(anatomy::Side punctured) {
-  return Vec3(punctured == anatomy::Side::right ? 0.32 : -0.32, -1, 0.26).normalized();
-}
-
 std::vector<ToolSection> sectionsOf(Tool tool) {
   std::vector<ToolSection> sections;
   if (tool == Tool::needle) {
@@ -74,13 +70,11 @@ std::vector<ToolSection> sectionsOf(Tool tool) {
 }
 
 std::vector<std::optional<ShadowPlace>> shadowOf(Tool tool, const Pose& X_AT,
-                                                 const anatomy::TriangleTree& skin,
-                                                 const Vec3& toward_light) {
-  const Vec3 way = -toward_light;
+                                                 const anatomy::TriangleTree& skin) {
   std::vector<std::optional<ShadowPlace>> places;
   for (const ToolSection& section : sectionsOf(tool)) {
     const Vec3 p_A = X_AT * Vec3(0, 0, -section.behind);
-    const std::optional<EntryPlace> hit = firstEntry(skin, p_A, way, kFarthest);
+    const std::optional<EntryPlace> hit = firstEntry(skin, p_A, -kTowardLight_A, kFarthest);
     if (!hit) {
       places.emplace_back();
       continue;
@@ -116,14 +110,15 @@ class ToolShadows::Ribbon {
     renderer.AddActor(actor_);
   }
 
-  void show(const std::vector<std::optional<ShadowPlace>>& places) {
+  void show(const std::vector<std::optional<ShadowPlace>>& places, const Seen& seen) {
     points_->Reset();
     colours_->Reset();
     cells_->Reset();
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!places[i]) continue;
       const bool runs_out = i + 1 < places.size() && !places[i + 1];  // over the skin's edge
-      add(*places[i], along(places, i), runs_out ? 0 : places[i]->dark);
+      add(*places[i], halfAcross(*places[i], along(places, i), seen),
+          runs_out ? 0 : places[i]->dark);
       if (i > 0 && places[i - 1]) join();
     }
     for (vtkObject* changed : {static_cast<vtkObject*>(points_), static_cast<vtkObject*>(colours_),
@@ -145,10 +140,19 @@ class ToolShadows::Ribbon {
     return way.norm() > 1e-9 ? Vec3(way.normalized()) : Vec3(Vec3::UnitZ());
   }
 
-  void add(const ShadowPlace& place, const Vec3& way, double dark) {
-    const Vec3 side = place.n_A.cross(way).normalized();
+  /// On the skin; across the line of sight where it would be too narrow.
+  static Vec3 halfAcross(const ShadowPlace& place, const Vec3& way, const Seen& seen) {
+    const Vec3 on_skin = place.half_width * place.n_A.cross(way).normalized();
+    const Vec3 sight = place.p_A - seen.eye_A, facing = sight.cross(way);
+    const double least = seen.least * sight.norm(),
+                 seen_width = on_skin.dot(facing) / facing.norm();
+    if (!(std::abs(seen_width) < least)) return on_skin;
+    return std::copysign(least, seen_width) * facing.normalized();
+  }
+
+  void add(const ShadowPlace& place, const Vec3& half_across, double dark) {
     for (std::size_t k = 0; k < kAcross; ++k) {
-      const Vec3 p = place.p_A + kPlaces[k] * place.half_width * side + kOverSkin * place.n_A;
+      const Vec3 p = place.p_A + kPlaces[k] * half_across + kOverSkin * place.n_A;
       points_->InsertNextPoint(p.data());
       const Rgb& ink = colour::kShadow;
       colours_->InsertNextTuple4(255 * ink[0], 255 * ink[1], 255 * ink[2], 255 * kInk[k] * dark);
@@ -190,7 +194,7 @@ std::vector<Vec3> ringAbout(const EntryPlace& entry) {
 }  // namespace
 
 ToolShadows::ToolShadows(vtkRenderer& on_skin, const anatomy::Patient& patient)
-    : toward_light_(towardLight(patient.side)), ring_(on_skin, colour::kRing, 1.6) {
+    : ring_(on_skin, colour::kRing, 1.6) {
   for (const anatomy::OrganSurface& organ : patient.organs)
     if (!skin_ && organ.organ == Organ::skin && !organ.mesh.triangles.empty())
       skin_ = std::make_unique<anatomy::TriangleTree>(organ.mesh);
@@ -199,21 +203,20 @@ ToolShadows::ToolShadows(vtkRenderer& on_skin, const anatomy::Patient& patient)
 
 ToolShadows::~ToolShadows() = default;
 
-void ToolShadows::update(const SceneState& state, bool visible) {
+void ToolShadows::update(const SceneState& state, bool visible, const Seen& seen) {
   visible = visible && skin_ && state.show_tool && state.X_AB.matrix().isIdentity(0) &&
             state.skin != SkinStyle::hidden;
   ring_.hide();
   entry_A_.reset();
   for (const auto& ribbon : ribbons_) ribbon->hide();
   if (!visible) return;
-  ribbons_[0]->show(shadowOf(state.tool, state.X_AT, *skin_, toward_light_));
-  if (state.second_X_AT)
-    ribbons_[1]->show(shadowOf(Tool::probe, *state.second_X_AT, *skin_, toward_light_));
-  if (state.tool != Tool::needle) return;
-  const auto entry = entryOf(state.X_AT, *skin_);
-  if (!entry) return;
-  ring_.show({ringAbout(*entry)});
-  entry_A_ = entry->p_A;
+  const auto entry =
+      state.tool == Tool::needle ? entryOf(state.X_AT, *skin_) : std::optional<EntryPlace>();
+  if (entry) entry_A_ = entry->p_A;
+  if (!state.shadows) return;
+  if (entry) ring_.show({ringAbout(*entry)});
+  ribbons_[0]->show(shadowOf(state.tool, state.X_AT, *skin_), seen);
+  if (state.second_X_AT) ribbons_[1]->show(shadowOf(Tool::probe, *state.second_X_AT, *skin_), seen);
 }
 
 bool ToolShadows::any() const {

@@ -17,10 +17,9 @@ class vtkRenderer;
 
 namespace palpa::scene {
 
-/// Where light comes from, in A, unit: from above (-y of a patient who lies on the back), a little
-/// from the head and from the side that is not punctured, so that a shadow lies beside what casts
-/// it.
-Vec3 towardLight(anatomy::Side punctured);
+/// Where light comes from, in A: straight above a patient who lies on the back, so that a tip's
+/// shadow lies straight below it whatever the skin's slope.
+inline const Vec3 kTowardLight_A(0, -1, 0);
 
 /// A cross-section of a tool: m behind its tip, and how thick it is there.
 struct ToolSection {
@@ -37,8 +36,7 @@ struct ShadowPlace {
 };
 /// None for what is inside, and where there is no skin below.
 std::vector<std::optional<ShadowPlace>> shadowOf(Tool tool, const Pose& X_AT,
-                                                 const anatomy::TriangleTree& skin,
-                                                 const Vec3& toward_light);
+                                                 const anatomy::TriangleTree& skin);
 
 /// Where a needle whose tip is inside went through the skin, and the outward normal there.
 struct EntryPlace {
@@ -56,14 +54,19 @@ class ToolShadows {
   ToolShadows(vtkRenderer& on_skin, const anatomy::Patient& patient);
   ~ToolShadows();
 
-  void update(const SceneState& state, bool visible);
+  /// From where it is seen, in A, and how wide a shadow is at least on the screen, to its distance
+  /// (skin that is seen at a grazing angle would leave nothing of it).
+  struct Seen {
+    Vec3 eye_A = Vec3::Zero();
+    double least = 0;
+  };
+  void update(const SceneState& state, bool visible, const Seen& seen);
   bool any() const;
   /// Of the needle, as of the last update
   std::optional<Vec3> entry_A() const { return entry_A_; }
 
  private:
   class Ribbon;
-  Vec3 toward_light_;
   std::unique_ptr<anatomy::TriangleTree> skin_;
   std::vector<std::unique_ptr<Ribbon>> ribbons_;
   EdgedLines ring_;

@@ -78,6 +78,7 @@ constexpr double kToolReach = 0.30;         // metres from the tip: the syringe,
 constexpr double kEyesApart = 0.063;        // metres, the mean of adults (Dodgson 2004)
 constexpr double kNearestFocus = 0.1;
 constexpr double kNearestThing = 0.05;  // m from the camera, of what is real
+constexpr double kShadowHalf_px = 2;    // the least half-width of a shadow, likewise
 constexpr double kShaft_px = 5;         // an arrow's shaft in a window 720 pixels high
 constexpr double kPin_px = 11;          // a pin's head, likewise
 
@@ -95,6 +96,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       region_(region),
       stereo_(layout.stereo),
       see_through_(layout.see_through),
+      shows_inside_(layout.inside),
       orbit_(defaultView(patient, region)),
       table_(*renderer_, patient),
       glass_((window.AddRenderer(renderer_), window), *renderer_),
@@ -256,13 +258,15 @@ void ArView::showNeedleLine(const SceneState& state, bool visible) {
   const double unit_px = std::max(window_height_ / 720.0, 1.0);
   const double scale = state.picture ? double(picture_.width) / state.picture->width : 0;
   needle_line_.update(state, shadows_.entry_A(), X_CA_, pinhole_.fx, unit_px,
-                      scale * state.look.blur_px);
+                      scale * state.look.blur_px, shows_inside_ && state.skin != SkinStyle::solid);
 }
 
 void ArView::showPatient(const SceneState& state, bool visible) {
   if (skin_) skin_->update(state.skin_push);
   table_.setVisible(visible && virtual_ && !see_through_);
-  shadows_.update(state, visible);
+  shadows_.update(state, visible,
+                  {X_CA_.inverse().translation(),
+                   kShadowHalf_px * std::max(window_height_ / 720.0, 1.0) / pinhole_.fx});
   organs_.setStyle(state.skin);
   organs_.setWalls(state.picture == nullptr && !see_through_);  // else one sees the real thing
   organs_.setVisible(visible);

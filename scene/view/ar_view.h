@@ -108,7 +108,7 @@ class ArView {
   Rect panel_, picture_;
   int window_width_ = 1, window_height_ = 1;
   Stereo stereo_;
-  bool see_through_;
+  bool see_through_, shows_inside_;
   std::array<EyeCamera, 2> eyes_;
   std::array<Rect, 2> eye_panels_;
   Vec3 tip_A_ = Vec3::Zero();

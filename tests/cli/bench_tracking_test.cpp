@@ -36,18 +36,6 @@ TEST(BenchTracking, HoldsWhatIsPromised) {
   EXPECT_TRUE(value.contains("roi_speedup"));  // a cost: shown, not judged here
 }
 
-/// What a headset's frame costs besides its drawing, which Mesa can leave out.
-TEST(BenchHeadset, DrawsNothing) {
-  const Folder here;
-  const Outcome outcome = palpa({"bench", "headset", "--frames", "3"}, here.path());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto lines = jsonLines(outcome);
-  ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0]["metric"], "headset_cpu_ms");
-  EXPECT_GT(lines[0]["value"], 0);
-  EXPECT_EQ(lines[0]["params"]["drawn_by"], "NOOP");
-}
-
 /// The tracking model: its figures as lines and as a file that a station can name, and then the
 /// model beside pictures.
 TEST(BenchTracking, MeasuresTheTrackingModelAndComparesIt) {

@@ -85,5 +85,63 @@ TEST_P(Angles, ANeedleStandsOutAlongItsLength) {
   }
 }
 
+/// Skin about a bone, in front of which the eye is; the needle enters from the left and goes on
+/// behind the bone.
+struct BehindABone {
+  anatomy::Patient patient = [] {
+    anatomy::Patient made;
+    test::add(made, "skin", Organ::skin, test::sphere({0, 0, 0}, Vec3::Constant(0.045)));
+    test::add(made, "bone", Organ::clavicle, test::sphere({0, -0.02, 0}, {0.02, 0.01, 0.02}));
+    return made;
+  }();
+  SceneState state = [] {
+    SceneState s;
+    s.registered = true;
+    s.camera = {400, 300, 1000, 1000, 199.5, 149.5};
+    s.X_CA = lookAt({0, -0.5, 0}, {0, 0, 0});
+    s.X_AT = makePose(rotationWithZ(Vec3::UnitX()), Vec3(0.018, 0.01, 0));
+    return s;
+  }();
+
+  /// Columns before the bone in which the picture is another without the needle.
+  std::vector<bool> columns(SkinStyle skin, bool inside) {
+    ViewLayout layout{400, 300, FixedViews::none, true};
+    layout.inside = inside;
+    SceneView view(offscreen(), patient, layout);
+    state.skin = skin;
+    const auto picture = [&](bool needle) {
+      state.show_tool = needle;
+      view.show(state);
+      return view.capture();
+    };
+    const Image with = picture(true), without = picture(false);
+    std::vector<bool> changed;
+    for (int u = 175; u < 235; ++u) {
+      int most = 0;
+      for (int v = 140; v < 160; ++v)
+        most = std::max(most, difference(at(with, u, v), at(without, u, v)));
+      changed.push_back(most > 40);
+    }
+    return changed;
+  }
+};
+
+TEST(NeedleLine, IsDashedWhereABoneHidesIt) {
+  const std::vector<bool> columns = BehindABone().columns(SkinStyle::translucent, true);
+  int dashes = 0;
+  for (std::size_t i = 1; i < columns.size(); ++i) dashes += columns[i] && !columns[i - 1];
+  EXPECT_GE(dashes, 3);
+  const auto drawn = std::count(columns.begin(), columns.end(), true);
+  EXPECT_GT(drawn, 0.4 * double(columns.size()));
+  EXPECT_LT(drawn, 0.9 * double(columns.size()));
+}
+
+TEST(NeedleLine, IsNotSeenUnderASolidSkin) {
+  for (const bool inside : {true, false}) {
+    const std::vector<bool> columns = BehindABone().columns(SkinStyle::solid, inside);
+    EXPECT_EQ(std::count(columns.begin(), columns.end(), true), 0) << inside;
+  }
+}
+
 }  // namespace
 }  // namespace palpa::scene

@@ -25,45 +25,39 @@ const anatomy::TriangleTree& skin() {
   return tree;
 }
 
-const Vec3& light() {
-  static const Vec3 toward = towardLight(anatomy::Side::right);
-  return toward;
-}
-
 /// A needle `height` above the block's top at (x, z), that points down and to one side.
 Pose above(double x, double height, double z) {
   return makePose(rotationWithZ(Vec3(0.5, 1, 0.2).normalized()), Vec3(x, -height, z));
 }
 
-TEST(ToolShadow, OfATipLiesWhereLightThroughItMeetsTheSkin) {
+TEST(ToolShadow, OfATipLiesStraightBelowIt) {
   for (const double height : {0.001, 0.010, 0.040}) {
     const Pose X_AT = above(0.005, height, -0.004);
-    const auto places = shadowOf(Tool::needle, X_AT, skin(), light());
+    const auto places = shadowOf(Tool::needle, X_AT, skin());
     ASSERT_EQ(places.size(), sectionsOf(Tool::needle).size());
     ASSERT_TRUE(places.front());
-    const Vec3 expected = X_AT.translation() + height / light().y() * light();
+    const Vec3 expected(X_AT.translation().x(), 0, X_AT.translation().z());
     EXPECT_NEAR((places.front()->p_A - expected).norm(), 0, 1e-9) << height;
     EXPECT_NEAR((places.front()->n_A - Vec3(0, -1, 0)).norm(), 0, 1e-6);
   }
 }
 
 TEST(ToolShadow, IsNarrowAndDarkNearTheSkin) {
-  const auto near = shadowOf(Tool::needle, above(0, 0.001, 0), skin(), light()).front(),
-             far = shadowOf(Tool::needle, above(0, 0.040, 0), skin(), light()).front();
+  const auto near = shadowOf(Tool::needle, above(0, 0.001, 0), skin()).front(),
+             far = shadowOf(Tool::needle, above(0, 0.040, 0), skin()).front();
   ASSERT_TRUE(near && far);
   EXPECT_LT(near->half_width, 0.5 * far->half_width);
   EXPECT_GT(near->dark, 1.5 * far->dark);
 }
 
 TEST(ToolShadow, WhatIsInsideCastsNone) {
-  const auto places = shadowOf(Tool::needle, above(0, -0.010, 0), skin(), light());
+  const auto places = shadowOf(Tool::needle, above(0, -0.010, 0), skin());
   EXPECT_FALSE(places.front());
   EXPECT_TRUE(places[8]) << "32 mm behind the tip it is outside";
 }
 
 TEST(ToolShadow, BesideTheBlockThereIsNone) {
-  for (const auto& place : shadowOf(Tool::probe, above(0.5, 0.01, 0), skin(), light()))
-    EXPECT_FALSE(place);
+  for (const auto& place : shadowOf(Tool::probe, above(0.5, 0.01, 0), skin())) EXPECT_FALSE(place);
 }
 
 TEST(ToolShadow, TheRingIsWhereTheNeedleWentIn) {

@@ -15,17 +15,22 @@ std::size_t trianglesOf(const anatomy::Patient& patient) {
   return all;
 }
 
+scene::CameraLook SessionFrames::usualLook() {
+  return {.blur_px = 0.7,
+          .black = {0.1, 0.1, 0.1},
+          .white = {0.9, 0.9, 0.9},
+          .grain_black = 0.01,
+          .grain_white = 0.01};
+}
+
 SessionFrames::SessionFrames(const anatomy::Patient& patient)
-    : picture_{kWidth, kHeight, 3, std::vector<std::uint8_t>(std::size_t{3} * kWidth * kHeight, 120)},
+    : picture_{kWidth, kHeight, 3,
+               std::vector<std::uint8_t>(std::size_t{3} * kWidth * kHeight, 120)},
       entry_A_(patient.landmark(anatomy::landmark::kEntry)) {
   state_.picture = &picture_;
   state_.registered = true;
   state_.camera = {kWidth, kHeight, 600, 600, 319.5, 239.5};
-  state_.look = {.blur_px = 0.7,
-                 .black = {0.1, 0.1, 0.1},
-                 .white = {0.9, 0.9, 0.9},
-                 .grain_black = 0.01,
-                 .grain_white = 0.01};
+  state_.look = usualLook();
 }
 
 const scene::SceneState& SessionFrames::at(int i) {
@@ -35,8 +40,7 @@ const scene::SceneState& SessionFrames::at(int i) {
   state_.X_CA = lookAt(entry_A_ + Vec3(0.002 * sway + sideways_, -0.45, 0.10), entry_A_);
   state_.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(),
                          entry_A_ + Vec3(0, 0.01 * sway, 0));
-  state_.forces = {
-      {scene::ForceKind::reaction, state_.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
+  state_.forces = {{scene::ForceKind::reaction, state_.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
   state_.hud.phase = "phase 2: advance to the vein";
   char force[16];
   std::snprintf(force, sizeof force, "%.1f N",
@@ -50,13 +54,18 @@ const scene::SceneState& SessionFrames::forEyes(int i, double t_s, int width, in
   constexpr double kBetween = 0.063;
   at(i);
   const double turns = 2 * std::numbers::pi * t_s;
-  const Vec3 head = entry_A_ + Vec3(0.028 * std::sin(0.25 * turns), -0.45 + 0.02 * std::sin(0.1 * turns),
-                                    0.10 + 0.02 * std::sin(0.17 * turns));
+  const Vec3 head =
+      entry_A_ + Vec3(0.028 * std::sin(0.25 * turns), -0.45 + 0.02 * std::sin(0.1 * turns),
+                      0.10 + 0.02 * std::sin(0.17 * turns));
   const Pose X_CA = lookAt(head, entry_A_);
   std::array<scene::EyeCamera, 2> eyes;
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    eyes[eye].camera = {width, height, 0.5 * width / kTangent, 0.5 * height / kTangent,
-                        0.5 * (width - 1), 0.5 * (height - 1)};
+    eyes[eye].camera = {width,
+                        height,
+                        0.5 * width / kTangent,
+                        0.5 * height / kTangent,
+                        0.5 * (width - 1),
+                        0.5 * (height - 1)};
     eyes[eye].X_CA = X_CA;
     eyes[eye].X_CA.translation().x() += eye == 0 ? 0.5 * kBetween : -0.5 * kBetween;
   }

@@ -14,6 +14,8 @@ class SessionFrames {
  public:
   static constexpr int kWidth = 640, kHeight = 480;  ///< of the camera's picture
 
+  static scene::CameraLook usualLook();  ///< of an ordinary webcam
+
   explicit SessionFrames(const anatomy::Patient& patient);
 
   /// Number i of a slow sway.

@@ -1,0 +1,361 @@
+#include "apps/bench/pictures/tool_in_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "anatomy/base/quantile.h"
+
+namespace palpa::bench {
+namespace {
+
+using Eigen::Vector2d;
+constexpr float kChanged = 9;                      // levels: beyond grain
+constexpr float kDarkest = 0.72f;                  // of shadows; what is darker is a thing
+constexpr float kOneColour = 0.10f;                // a shadow takes as much from every channel
+constexpr float kPink = 0.16f;                     // more than before
+constexpr double kNeedleHalf_px = 5;               // half of its line's width, with dark edges
+constexpr double kRingNear_px = 3.5, kRing_px = 9; // from the line: where only a ring is
+
+cv::Mat3f softened(const cv::Mat3b& picture) {
+  cv::Mat3f soft;
+  picture.convertTo(soft, CV_32F);
+  cv::GaussianBlur(soft, soft, {}, 0.6);
+  return soft;
+}
+
+template <class Value>
+Value sampled(const cv::Mat_<Value>& picture, const Vector2d& p) {
+  const int u = std::clamp(int(std::floor(p.x())), 0, picture.cols - 2),
+            v = std::clamp(int(std::floor(p.y())), 0, picture.rows - 2);
+  const auto x = float(std::clamp(p.x() - u, 0.0, 1.0)), y = float(std::clamp(p.y() - v, 0.0, 1.0));
+  return (1 - y) * ((1 - x) * picture(v, u) + x * picture(v, u + 1)) +
+         y * ((1 - x) * picture(v + 1, u) + x * picture(v + 1, u + 1));
+}
+
+float light(const cv::Vec3f& rgb) { return (rgb[0] + rgb[1] + rgb[2]) / 3; }
+/// Of the hub, which is pink in any light: red and blue over green, to the whole.
+float pinkness(const cv::Vec3f& rgb) {
+  return (std::min(rgb[0], 1.15f * rgb[2]) - rgb[1]) / (light(rgb) + 10);
+}
+
+/// The change between two pictures, by place.
+class Change {
+ public:
+  Change(const cv::Mat3b& before, const cv::Mat3b& now)
+      : before_(softened(before)), now_(softened(now)), shade_(shadeOf(before, now)) {}
+
+  float size(const Vector2d& p) const {
+    const cv::Vec3f d = signedAt(p);
+    return std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+  }
+  cv::Vec3f signedAt(const Vector2d& p) const { return sampled(now_, p) - sampled(before_, p); }
+  float pinker(const Vector2d& p) const {
+    return pinkness(sampled(now_, p)) - pinkness(sampled(before_, p));
+  }
+  float lighter(const Vector2d& p) const {
+    return light(sampled(now_, p)) - light(sampled(before_, p));
+  }
+  cv::Vec3f now(const Vector2d& p) const { return sampled(now_, p); }
+  bool inside(const Vector2d& p) const {
+    return p.x() > 1 && p.y() > 1 && p.x() < now_.cols - 2 && p.y() < now_.rows - 2;
+  }
+
+  /// Pixels that have become pinker, and those that changed and are no shadow.
+  cv::Mat1b pink() const {
+    return where([&](int u, int v) { return pinkness(now_(v, u)) - pinkness(before_(v, u)) > kPink; });
+  }
+  cv::Mat1b thing() const {
+    return where([&](int u, int v) {
+      const cv::Vec3f d = now_(v, u) - before_(v, u);
+      return shade_(v, u) <= 0 &&
+             std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}) > kChanged;
+    });
+  }
+
+ private:
+  template <class Is>
+  cv::Mat1b where(const Is& is) const {
+    cv::Mat1b mask(now_.size(), uchar(0));
+    for (int v = 0; v < mask.rows; ++v)
+      for (int u = 0; u < mask.cols; ++u) mask(v, u) = is(u, v) ? 255 : 0;
+    return mask;
+  }
+
+  cv::Mat3f before_, now_;
+  cv::Mat1f shade_;
+};
+
+/// The part of a mask that this pixel belongs to, joined over gaps of some pixels.
+cv::Mat1b partAt(const cv::Mat1b& mask, const cv::Mat1b& seed) {
+  cv::Mat1b joined;
+  cv::morphologyEx(mask | seed, joined, cv::MORPH_CLOSE, cv::Mat1b::ones(7, 7));
+  cv::Mat1i label;
+  const int labels = cv::connectedComponents(joined, label);
+  std::vector<int> votes(std::size_t(labels), 0);
+  for (int v = 0; v < mask.rows; ++v)
+    for (int u = 0; u < mask.cols; ++u)
+      if (seed(v, u)) ++votes[std::size_t(label(v, u))];
+  votes[0] = 0;
+  const auto most = int(std::max_element(votes.begin(), votes.end()) - votes.begin());
+  return (label == most) & mask;
+}
+
+std::vector<cv::Point> pointsOf(const cv::Mat1b& mask) {
+  std::vector<cv::Point> points;
+  cv::findNonZero(mask, points);
+  return points;
+}
+
+Vector2d meanOf(const std::vector<cv::Point>& points) {
+  Vector2d sum = Vector2d::Zero();
+  for (const cv::Point& p : points) sum += Vector2d(p.x, p.y);
+  return sum / double(points.size());
+}
+
+/// The largest blob of pink.
+cv::Mat1b hubOf(const cv::Mat1b& pink) {
+  cv::Mat1b open;
+  cv::morphologyEx(pink, open, cv::MORPH_CLOSE, cv::Mat1b::ones(3, 3));
+  cv::Mat1i label;
+  cv::Mat stats, middles;
+  const int labels = cv::connectedComponentsWithStats(open, label, stats, middles);
+  int best = 0, most = 0;
+  for (int i = 1; i < labels; ++i)
+    if (const int area = stats.at<int>(i, cv::CC_STAT_AREA); area > most) best = i, most = area;
+  return best > 0 ? cv::Mat1b(label == best) : cv::Mat1b(pink.size(), uchar(0));
+}
+
+/// How sharply what has changed begins or ends across the line, a pixel; shadows have soft edges.
+float edgeAt(const Change& change, const ToolInPicture& tool, double s, double x) {
+  constexpr double kHalf = 0.75;
+  constexpr float kEnough = 16;
+  const Vector2d across(-tool.along.y(), tool.along.x());
+  const cv::Vec3f step = change.signedAt(tool.at(s) + (x + kHalf) * across) -
+                         change.signedAt(tool.at(s) + (x - kHalf) * across);
+  return std::min(kEnough, std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])}));
+}
+
+/// The middle of what is sharp within two pixels; none where hardly anything is.
+std::optional<double> sharpestNear(const Change& change, const ToolInPicture& tool, double s,
+                                   double x) {
+  double weight = 0, moment = 0;
+  for (double at = x - 2; at <= x + 2; at += 0.25) {
+    const double w = std::pow(edgeAt(change, tool, s, at), 2);
+    weight += w;
+    moment += w * at;
+  }
+  return weight > 17 * 3 ? std::optional(moment / weight) : std::nullopt;
+}
+
+/// The barrel's two edges: straight, as far from the line on both sides, the outermost of such
+/// pairs that are nearly as sharp as the sharpest.
+void findBarrel(const Change& change, double back, ToolInPicture* tool) {
+  // Half of a barrel's width to a syringe's length; looked at more from behind it is more.
+  constexpr double kStep = 0.25, kSlimmest = 0.065;
+  const double first = 0.3 * back, last = 0.75 * back;
+  const int columns = int(0.5 * back / kStep);
+  const int rows = int(last - first) + 1;
+  cv::Mat1f both(rows, columns, 0.f);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      both(row, column) = std::sqrt(edgeAt(change, *tool, first + row, column * kStep) *
+                                    edgeAt(change, *tool, first + row, -column * kStep));
+  struct Pair {
+    double front = 0, end = 0;  ///< columns
+    float score = 0;
+  };
+  std::vector<Pair> pairs;
+  float best = 0;
+  for (int front = int(kSlimmest * back / kStep); front < columns; ++front)
+    for (int end = int(0.75 * front); end < std::min(columns, int(1.35 * front)); ++end) {
+      float sum = 0;
+      for (int row = 0; row < rows; ++row)
+        sum += both(row, int(std::lround(front + (end - front) * double(row) / (rows - 1))));
+      pairs.push_back({double(front), double(end), sum / float(rows)});
+      best = std::max(best, pairs.back().score);
+    }
+  std::erase_if(pairs, [&](const Pair& p) { return p.score < 0.5f * best; });
+  if (pairs.empty()) return;
+  double outermost = 0;
+  for (const Pair& p : pairs) outermost = std::max(outermost, p.front + p.end);
+  Pair chosen;
+  for (const Pair& p : pairs)
+    if (p.front + p.end > outermost - 2 * 3 / kStep && p.score > chosen.score) chosen = p;
+  for (int row = 0; row < rows; ++row) {
+    const double s = first + row,
+                 half = kStep * (chosen.front + (chosen.end - chosen.front) * row / (rows - 1));
+    const auto left = sharpestNear(change, *tool, s, -half),
+               right = sharpestNear(change, *tool, s, half);
+    if (left && right) tool->barrel.push_back({s, *right - *left});
+  }
+}
+
+/// Of the needle's light core across the line at s; none where there is no such line.
+std::optional<double> coreAt(const Change& change, const ToolInPicture& tool, double s,
+                             double reach) {
+  const Vector2d across(-tool.along.y(), tool.along.x());
+  double weight = 0, moment = 0;
+  for (double x = -reach; x <= reach; x += 0.5) {
+    const auto place = [&](double at) { return light(change.now(tool.at(s) + at * across)); };
+    const double ridge = place(x) - 0.5 * (place(x - 2.5) + place(x + 2.5));
+    if (ridge < 15 || change.size(tool.at(s) + x * across) < kChanged) continue;
+    weight += ridge * ridge;
+    moment += ridge * ridge * x;
+  }
+  return weight > 0 ? std::optional(moment / weight) : std::nullopt;
+}
+
+/// From there to here, the line through the middles of the needle's core and the hub's pink.
+void straighten(const Change& change, double from, double to, double reach, ToolInPicture* tool) {
+  const Vector2d across(-tool->along.y(), tool->along.x());
+  std::vector<cv::Point2f> middles;
+  for (double s = from; s < to; s += 0.5)
+    if (const auto x = coreAt(change, *tool, s, reach)) {
+      const Vector2d p = tool->at(s) + *x * across;
+      middles.emplace_back(float(p.x()), float(p.y()));
+    }
+  if (middles.size() < 20) return;
+  cv::Vec4f line;
+  cv::fitLine(middles, line, cv::DIST_HUBER, 0, 0.01, 0.01);
+  Vector2d way(line[0], line[1]);
+  if (way.dot(tool->along) < 0) way = -way;
+  const Vector2d point(line[2], line[3]);
+  tool->hub_px = point + way * way.dot(tool->hub_px - point);
+  tool->along = way;
+}
+
+/// A needle here: a line that is lighter than what lies right beside it, as thin as a needle.
+bool isNeedle(const Change& change, const ToolInPicture& tool, double s) {
+  const Vector2d across(-tool.along.y(), tool.along.x());
+  float core = 0, low = 255, high = 0;
+  for (double x = -1; x <= 1; x += 0.5) core = std::max(core, light(change.now(tool.at(s) + x * across)));
+  for (const double sign : {-1.0, 1.0})
+    for (double x = 1.5; x <= kNeedleHalf_px; x += 0.5) {
+      const float beside = light(change.now(tool.at(s) + sign * x * across));
+      low = std::min(low, beside);
+    }
+  for (double x = -1; x <= 1; x += 0.5) high = std::max(high, change.size(tool.at(s) + x * across));
+  return core - low > 18 && high > kChanged;
+}
+
+/// From the hub toward the tip, until there is no needle for longer than between two dashes.
+double tipOf(const Change& change, const ToolInPicture& tool, double from) {
+  constexpr double kStep = 0.25, kGap = 9;
+  double last = from;
+  for (double s = from; s > from - 400 && last - s < kGap; s -= kStep)
+    if (change.inside(tool.at(s)) && isNeedle(change, tool, s)) last = s;
+  return last;
+}
+
+/// Halfway from what is there to pink.
+double needleEndOf(const Change& change, const ToolInPicture& tool, double hub_half) {
+  double most = 0;
+  for (double s = -hub_half; s <= hub_half; s += 0.5)
+    most = std::max(most, double(change.pinker(tool.at(s))));
+  double s = 0;
+  while (s > -3 * hub_half && change.pinker(tool.at(s)) > 0.5 * most) s -= 0.1;
+  return s;
+}
+
+/// Where the syringe ends, along the line.
+double endOf(const Change& change, const ToolInPicture& tool) {
+  constexpr double kGap = 28;
+  const Vector2d across(-tool.along.y(), tool.along.x());
+  double last = 0;
+  for (double s = 0; s - last < kGap && change.inside(tool.at(s)); s += 1)
+    for (double x = -3; x <= 3; x += 1)
+      if (change.size(tool.at(s) + x * across) > kChanged) last = s;
+  return last;
+}
+
+/// Beside the needle, where nothing else is: the middle of what has become lighter.
+std::optional<double> ringOf(const Change& change, const ToolInPicture& tool) {
+  const Vector2d across(-tool.along.y(), tool.along.x());
+  std::vector<double> bright;
+  for (double s = tool.tip + 2; s < tool.needle_end - 2; s += 0.25) {
+    double sum = 0;
+    for (const double sign : {-1.0, 1.0})
+      for (double x = kRingNear_px; x <= kRing_px; x += 0.5)
+        sum += std::max(0.f, change.lighter(tool.at(s) + sign * x * across) - 12);
+    bright.push_back(sum);
+  }
+  constexpr std::size_t kWindow = 32;  // 8 px
+  double best = 0, at = 0;
+  for (std::size_t i = 0; i + kWindow < bright.size(); ++i) {
+    double sum = 0, moment = 0;
+    for (std::size_t k = i; k < i + kWindow; ++k) sum += bright[k], moment += double(k) * bright[k];
+    if (sum > best) best = sum, at = moment / sum;
+  }
+  if (best < 60) return std::nullopt;
+  return tool.tip + 2 + 0.25 * at;
+}
+
+/// Where the needle's line turns from the colour of what lies under the skin, red, to steel's.
+std::optional<double> tintOf(const Change& change, const ToolInPicture& tool) {
+  constexpr float kRed = 0.31f;  // of red, more than of blue; bone has less
+  const Vector2d across(-tool.along.y(), tool.along.x());
+  double last = tool.tip;
+  for (double s = tool.tip; s < tool.needle_end; s += 0.25)
+    for (double x = -1; x <= 1; x += 0.5)
+      if (const cv::Vec3f rgb = change.now(tool.at(s) + x * across);
+          rgb[0] > 90 && rgb[0] - rgb[2] > kRed * rgb[0])
+        last = s;
+  return last > tool.tip + 2 ? std::optional(last) : std::nullopt;
+}
+
+}  // namespace
+
+cv::Mat1f shadeOf(const cv::Mat3b& before, const cv::Mat3b& now) {
+  const cv::Mat3f a = softened(before), b = softened(now);
+  cv::Mat1f shade(a.size(), 0.f);
+  for (int v = 0; v < a.rows; ++v)
+    for (int u = 0; u < a.cols; ++u) {
+      std::array<float, 3> lost{};
+      for (int k = 0; k < 3; ++k)
+        lost[std::size_t(k)] = 1 - (b(v, u)[k] + 1) / (a(v, u)[k] + 1);
+      const auto [low, high] = std::minmax_element(lost.begin(), lost.end());
+      if (*low > 0.02f && *high < kDarkest && *high - *low < kOneColour)
+        shade(v, u) = (lost[0] + lost[1] + lost[2]) / 3;
+    }
+  return shade;
+}
+
+std::optional<ToolInPicture> toolIn(const cv::Mat3b& before, const cv::Mat3b& now) {
+  const Change change(before, now);
+  const cv::Mat1b hub = hubOf(change.pink());
+  const std::vector<cv::Point> hub_points = pointsOf(hub);
+  if (hub_points.size() < 30) return std::nullopt;
+  const std::vector<cv::Point> all = pointsOf(partAt(change.thing(), hub));
+  if (all.size() < 200) return std::nullopt;
+  ToolInPicture tool;
+  tool.hub_px = meanOf(hub_points);
+  cv::Vec4f line;
+  cv::fitLine(all, line, cv::DIST_HUBER, 0, 0.01, 0.01);
+  tool.along = Vector2d(line[0], line[1]);
+  // A syringe is broader than a needle.
+  const Vector2d across(-tool.along.y(), tool.along.x());
+  double broad = 0;
+  for (const cv::Point& p : all) {
+    const Vector2d off = Vector2d(p.x, p.y) - tool.hub_px;
+    broad += std::copysign(std::pow(off.dot(across), 2), off.dot(tool.along));
+  }
+  if (broad < 0) tool.along = -tool.along;
+  std::vector<double> hub_places;
+  for (const cv::Point& p : hub_points)
+    hub_places.push_back(tool.along.dot(Vector2d(p.x, p.y) - tool.hub_px));
+  const double hub_half = quantile(hub_places, 0.98);
+  for (const double far : {3.0, 4.0, 5.0, 6.0})
+    straighten(change, -far * hub_half, -hub_half, 18 / far, &tool);
+  const double back = endOf(change, tool);
+  tool.needle_end = needleEndOf(change, tool, hub_half);
+  tool.tip = tipOf(change, tool, tool.needle_end - 2);
+  findBarrel(change, back, &tool);
+  tool.ring = ringOf(change, tool);
+  tool.tint = tintOf(change, tool);
+  if (tool.needle_end - tool.tip < 5 || tool.barrel.size() < 20) return std::nullopt;
+  return tool;
+}
+
+}  // namespace palpa::bench

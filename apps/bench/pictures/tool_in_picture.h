@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+namespace palpa::bench {
+
+/// A needle on its syringe as it lies in a picture: on a straight line, whose places s are pixels
+/// from the hub's middle, positive toward the plunger.
+struct ToolInPicture {
+  Eigen::Vector2d hub_px, along;  ///< a point of the line; unit
+  double tip = 0;                 ///< s where the needle ends
+  double needle_end = 0;          ///< s where the hub begins
+  struct Width {
+    double s = 0, px = 0;
+  };
+  std::vector<Width> barrel;         ///< across the line, along the barrel
+  std::optional<double> ring, tint;  ///< s of a ring about the needle, of its change of colour
+
+  Eigen::Vector2d at(double s) const { return hub_px + s * along; }
+};
+
+/// Told from what has changed since the picture `before`, of the same view without a tool; RGB.
+std::optional<ToolInPicture> toolIn(const cv::Mat3b& before, const cv::Mat3b& now);
+
+/// How much darker than before, 0 to 1, where the colour is the same: a shadow's.
+cv::Mat1f shadeOf(const cv::Mat3b& before, const cv::Mat3b& now);
+
+}  // namespace palpa::bench

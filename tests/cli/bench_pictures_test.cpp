@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "tests/support/counts.h"
+
+/// What pictures cost and what can be read from them, measured as anyone can.
+namespace palpa::cli_test {
+namespace {
+
+/// What a headset's frame costs besides its drawing, which Mesa can leave out.
+TEST(BenchHeadset, DrawsNothing) {
+  const Folder here;
+  const Outcome outcome = palpa({"bench", "headset", "--frames", "3"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto lines = jsonLines(outcome);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0]["metric"], "headset_cpu_ms");
+  EXPECT_GT(lines[0]["value"], 0);
+  EXPECT_EQ(lines[0]["params"]["drawn_by"], "NOOP");
+}
+
+/// One AR view alone says how far off the skin a needle is and how deep behind it, and it is the
+/// shadow that says the first.
+TEST(BenchObserver, ReadsHeightAndDepthFromPixels) {
+  const Folder here;
+  const std::string poses = test::fullCounts() ? "200" : "10";
+  const double least = test::fullCounts() ? 0.95 : 0.7;
+  const Outcome outcome = palpa({"bench", "observer", "--poses", poses}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::map<std::pair<std::string, bool>, double> value;
+  for (const nlohmann::json& line : jsonLines(outcome))
+    value[{line["metric"], line["params"]["shadow_and_ring"]}] = line["value"];
+  EXPECT_GE(value.at({"height_told", true}), least);
+  EXPECT_GE(value.at({"depth_told", true}), least);
+  EXPECT_LT(value.at({"height_told", false}), 0.5);
+  EXPECT_TRUE(value.contains({"depth_told", false}));
+}
+
+}  // namespace
+}  // namespace palpa::cli_test
