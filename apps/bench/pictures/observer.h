@@ -9,13 +9,14 @@
 namespace palpa::bench {
 
 /// Somebody who looks at the AR view and knows no more than a person would: the camera and how it
-/// is held, how long a needle is and how wide its syringe, and that light comes from straight above.
-/// Tells from pixels alone how far off the skin the tip is, and how deep behind it. C: the camera.
+/// is held, how long a needle is and how wide its syringe, and that light comes from straight
+/// above. Tells from pixels alone how far off the skin the tip is, and how deep behind it. C: the
+/// camera.
 class Observer {
  public:
   struct Knows {
     scene::Pinhole camera;
-    Vec3 down_C = Vec3::UnitY();  ///< unit
+    Vec3 down_C = Vec3::UnitY();                          ///< unit
     double needle_length = 0.07, barrel_radius = 0.0088;  ///< m
   };
   explicit Observer(const Knows& knows) : knows_(knows) {}

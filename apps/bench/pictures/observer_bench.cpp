@@ -26,7 +26,7 @@ constexpr double kFocal_px = 1100;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kHeightBound = 0.003, kDepthBound = 0.005;  // m
 constexpr double kLeastFromSight = 30 * kDegree;
-constexpr double kHighest = 0.040, kDeepest = 0.050;         // m
+constexpr double kHighest = 0.040, kDeepest = 0.050;  // m
 
 /// One pose, how it is looked at, and what is true of it.
 struct Shown {
@@ -71,8 +71,8 @@ class Poses {
       Vec3 way = (vein_A_ - entry_A_).normalized();
       for (int k = 0; k < 3; ++k) way[k] += 0.15 * random.normal();
       way.normalize();
-      const Vec3 high = entry_A_ + Vec3(random.uniform(-0.015, 0.015), -0.2,
-                                        random.uniform(-0.015, 0.015));
+      const Vec3 high =
+          entry_A_ + Vec3(random.uniform(-0.015, 0.015), -0.2, random.uniform(-0.015, 0.015));
       const auto down = skinAlong(high, Vec3::UnitY(), 0.4);
       if (!down) continue;
       const Vec3 on_skin = high + *down * Vec3::UnitY();
@@ -116,7 +116,8 @@ class Stage {
         view_(*context_, patient, {kWidth, kHeight, scene::FixedViews::none, false}) {
     state_.registered = true;
     state_.picture = &table_;
-    state_.camera = {kWidth, kHeight, kFocal_px, kFocal_px, 0.5 * (kWidth - 1), 0.5 * (kHeight - 1)};
+    state_.camera = {
+        kWidth, kHeight, kFocal_px, kFocal_px, 0.5 * (kWidth - 1), 0.5 * (kHeight - 1)};
     state_.look = SessionFrames::usualLook();
   }
 
@@ -146,18 +147,19 @@ Observer::Knows knows(const scene::Pinhole& camera, const Shown& shown) {
 }
 
 /// m; of what is not seen, as far as the farthest.
-std::vector<double> errorsOf(const Poses& poses, Stage* stage,
-                             int count, bool inside, bool shadows) {
+std::vector<double> errorsOf(const Poses& poses, Stage* stage, int count, bool inside,
+                             bool shadows) {
   std::vector<double> errors;
   for (int i = 0; i < count; ++i) {
     const Shown shown = inside ? poses.inside(i) : poses.above(i);
     const Observer observer(knows(stage->camera(), shown));
     const cv::Mat3b before = stage->picture(shown, false, shadows),
                     now = stage->picture(shown, true, shadows);
-    const auto said = inside ? observer.depthBehindSkin(before, now)
-                             : observer.heightAboveSkin(before, now);
+    const auto said =
+        inside ? observer.depthBehindSkin(before, now) : observer.heightAboveSkin(before, now);
     errors.push_back(said ? std::abs(*said - (inside ? shown.depth : shown.height)) : kDeepest);
-    if (i % 50 == 49) std::fprintf(stderr, "%s: %d of %d poses\n", inside ? "inside" : "above", i + 1, count);
+    if (i % 50 == 49)
+      std::fprintf(stderr, "%s: %d of %d poses\n", inside ? "inside" : "above", i + 1, count);
   }
   return errors;
 }
@@ -172,7 +174,8 @@ void benchObserver(const ObserverBenchOptions& options) {
     for (const bool inside : {false, true}) {
       const std::vector<double> errors = errorsOf(poses, &stage, options.poses, inside, shadows);
       const double bound = inside ? kDepthBound : kHeightBound;
-      const auto within = std::count_if(errors.begin(), errors.end(), [&](double e) { return e <= bound; });
+      const auto within =
+          std::count_if(errors.begin(), errors.end(), [&](double e) { return e <= bound; });
       const nlohmann::json params{{"poses", options.poses},
                                   {"shadow_and_ring", shadows},
                                   {"within_mm", 1e3 * bound},

@@ -11,12 +11,12 @@ namespace palpa::bench {
 namespace {
 
 using Eigen::Vector2d;
-constexpr float kChanged = 9;                      // levels: beyond grain
-constexpr float kDarkest = 0.72f;                  // of shadows; what is darker is a thing
-constexpr float kOneColour = 0.10f;                // a shadow takes as much from every channel
-constexpr float kPink = 0.16f;                     // more than before
-constexpr double kNeedleHalf_px = 5;               // half of its line's width, with dark edges
-constexpr double kRingNear_px = 3.5, kRing_px = 9; // from the line: where only a ring is
+constexpr float kChanged = 9;                       // levels: beyond grain
+constexpr float kDarkest = 0.72f;                   // of shadows; what is darker is a thing
+constexpr float kOneColour = 0.10f;                 // a shadow takes as much from every channel
+constexpr float kPink = 0.16f;                      // more than before
+constexpr double kNeedleHalf_px = 5;                // half of its line's width, with dark edges
+constexpr double kRingNear_px = 3.5, kRing_px = 9;  // from the line: where only a ring is
 
 cv::Mat3f softened(const cv::Mat3b& picture) {
   cv::Mat3f soft;
@@ -64,7 +64,8 @@ class Change {
 
   /// Pixels that have become pinker, and those that changed and are no shadow.
   cv::Mat1b pink() const {
-    return where([&](int u, int v) { return pinkness(now_(v, u)) - pinkness(before_(v, u)) > kPink; });
+    return where(
+        [&](int u, int v) { return pinkness(now_(v, u)) - pinkness(before_(v, u)) > kPink; });
   }
   cv::Mat1b thing() const {
     return where([&](int u, int v) {
@@ -226,18 +227,20 @@ void straighten(const Change& change, double from, double to, double reach, Tool
   tool->along = way;
 }
 
-/// A needle here: a line that is lighter than what lies right beside it, as thin as a needle.
+/// A needle here: something that is lighter than what lies right beside it, as thin as a needle.
 bool isNeedle(const Change& change, const ToolInPicture& tool, double s) {
+  constexpr float kLighter = 18;  // levels
   const Vector2d across(-tool.along.y(), tool.along.x());
-  float core = 0, low = 255, high = 0;
-  for (double x = -1; x <= 1; x += 0.5) core = std::max(core, light(change.now(tool.at(s) + x * across)));
-  for (const double sign : {-1.0, 1.0})
-    for (double x = 1.5; x <= kNeedleHalf_px; x += 0.5) {
-      const float beside = light(change.now(tool.at(s) + sign * x * across));
-      low = std::min(low, beside);
-    }
-  for (double x = -1; x <= 1; x += 0.5) high = std::max(high, change.size(tool.at(s) + x * across));
-  return core - low > 18 && high > kChanged;
+  const auto place = [&](double x) { return Vector2d(tool.at(s) + x * across); };
+  float core = 0, beside = 255, changed = 0;
+  for (double x = -1; x <= 1; x += 0.5) {
+    core = std::max(core, light(change.now(place(x))));
+    changed = std::max(changed, change.size(place(x)));
+  }
+  for (double x = 1.5; x <= kNeedleHalf_px; x += 0.5)
+    for (const double sign : {-1.0, 1.0})
+      beside = std::min(beside, light(change.now(place(sign * x))));
+  return core - beside > kLighter && changed > kChanged;
 }
 
 /// From the hub toward the tip, until there is no needle for longer than between two dashes.
@@ -313,8 +316,7 @@ cv::Mat1f shadeOf(const cv::Mat3b& before, const cv::Mat3b& now) {
   for (int v = 0; v < a.rows; ++v)
     for (int u = 0; u < a.cols; ++u) {
       std::array<float, 3> lost{};
-      for (int k = 0; k < 3; ++k)
-        lost[std::size_t(k)] = 1 - (b(v, u)[k] + 1) / (a(v, u)[k] + 1);
+      for (int k = 0; k < 3; ++k) lost[std::size_t(k)] = 1 - (b(v, u)[k] + 1) / (a(v, u)[k] + 1);
       const auto [low, high] = std::minmax_element(lost.begin(), lost.end());
       if (*low > 0.02f && *high < kDarkest && *high - *low < kOneColour)
         shade(v, u) = (lost[0] + lost[1] + lost[2]) / 3;
