@@ -142,7 +142,7 @@ class ToolShadows::Ribbon {
 
   /// On the skin; across the line of sight where it would be too narrow.
   static Vec3 halfAcross(const ShadowPlace& place, const Vec3& way, const Seen& seen) {
-    const Vec3 on_skin = place.half_width * place.n_A.cross(way).normalized();
+    Vec3 on_skin = place.half_width * place.n_A.cross(way).normalized();
     const Vec3 sight = place.p_A - seen.eye_A, facing = sight.cross(way);
     const double least = seen.least * sight.norm(),
                  seen_width = on_skin.dot(facing) / facing.norm();

@@ -26,8 +26,8 @@ TEST(BenchHeadset, DrawsNothing) {
 /// shadow that says the first.
 TEST(BenchObserver, ReadsHeightAndDepthFromPixels) {
   const Folder here;
-  const std::string poses = test::fullCounts() ? "200" : "10";
-  const double least = test::fullCounts() ? 0.95 : 0.7;
+  const std::string poses = test::fullCounts() ? "200" : "6";
+  const double least = test::fullCounts() ? 0.95 : 0.6;
   const Outcome outcome = palpa({"bench", "observer", "--poses", poses}, here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::map<std::pair<std::string, bool>, double> value;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/bench/pictures/picture_change.h"
 #include "apps/bench/pictures/tool_in_picture.h"
 
 namespace palpa::bench {

@@ -6,87 +6,16 @@
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/base/quantile.h"
+#include "apps/bench/pictures/picture_change.h"
 
 namespace palpa::bench {
 namespace {
 
 using Eigen::Vector2d;
-constexpr float kChanged = 9;                       // levels: beyond grain
-constexpr float kDarkest = 0.72f;                   // of shadows; what is darker is a thing
-constexpr float kOneColour = 0.10f;                 // a shadow takes as much from every channel
-constexpr float kPink = 0.16f;                      // more than before
+using Change = PictureChange;
+constexpr float kChanged = Change::kChanged;
 constexpr double kNeedleHalf_px = 5;                // half of its line's width, with dark edges
 constexpr double kRingNear_px = 3.5, kRing_px = 9;  // from the line: where only a ring is
-
-cv::Mat3f softened(const cv::Mat3b& picture) {
-  cv::Mat3f soft;
-  picture.convertTo(soft, CV_32F);
-  cv::GaussianBlur(soft, soft, {}, 0.6);
-  return soft;
-}
-
-template <class Value>
-Value sampled(const cv::Mat_<Value>& picture, const Vector2d& p) {
-  const int u = std::clamp(int(std::floor(p.x())), 0, picture.cols - 2),
-            v = std::clamp(int(std::floor(p.y())), 0, picture.rows - 2);
-  const auto x = float(std::clamp(p.x() - u, 0.0, 1.0)), y = float(std::clamp(p.y() - v, 0.0, 1.0));
-  return (1 - y) * ((1 - x) * picture(v, u) + x * picture(v, u + 1)) +
-         y * ((1 - x) * picture(v + 1, u) + x * picture(v + 1, u + 1));
-}
-
-float light(const cv::Vec3f& rgb) { return (rgb[0] + rgb[1] + rgb[2]) / 3; }
-/// Of the hub, which is pink in any light: red and blue over green, to the whole.
-float pinkness(const cv::Vec3f& rgb) {
-  return (std::min(rgb[0], 1.15f * rgb[2]) - rgb[1]) / (light(rgb) + 10);
-}
-
-/// The change between two pictures, by place.
-class Change {
- public:
-  Change(const cv::Mat3b& before, const cv::Mat3b& now)
-      : before_(softened(before)), now_(softened(now)), shade_(shadeOf(before, now)) {}
-
-  float size(const Vector2d& p) const {
-    const cv::Vec3f d = signedAt(p);
-    return std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
-  }
-  cv::Vec3f signedAt(const Vector2d& p) const { return sampled(now_, p) - sampled(before_, p); }
-  float pinker(const Vector2d& p) const {
-    return pinkness(sampled(now_, p)) - pinkness(sampled(before_, p));
-  }
-  float lighter(const Vector2d& p) const {
-    return light(sampled(now_, p)) - light(sampled(before_, p));
-  }
-  cv::Vec3f now(const Vector2d& p) const { return sampled(now_, p); }
-  bool inside(const Vector2d& p) const {
-    return p.x() > 1 && p.y() > 1 && p.x() < now_.cols - 2 && p.y() < now_.rows - 2;
-  }
-
-  /// Pixels that have become pinker, and those that changed and are no shadow.
-  cv::Mat1b pink() const {
-    return where(
-        [&](int u, int v) { return pinkness(now_(v, u)) - pinkness(before_(v, u)) > kPink; });
-  }
-  cv::Mat1b thing() const {
-    return where([&](int u, int v) {
-      const cv::Vec3f d = now_(v, u) - before_(v, u);
-      return shade_(v, u) <= 0 &&
-             std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}) > kChanged;
-    });
-  }
-
- private:
-  template <class Is>
-  cv::Mat1b where(const Is& is) const {
-    cv::Mat1b mask(now_.size(), uchar(0));
-    for (int v = 0; v < mask.rows; ++v)
-      for (int u = 0; u < mask.cols; ++u) mask(v, u) = is(u, v) ? 255 : 0;
-    return mask;
-  }
-
-  cv::Mat3f before_, now_;
-  cv::Mat1f shade_;
-};
 
 /// The part of a mask that this pixel belongs to, joined over gaps of some pixels.
 cv::Mat1b partAt(const cv::Mat1b& mask, const cv::Mat1b& seed) {
@@ -133,8 +62,8 @@ float edgeAt(const Change& change, const ToolInPicture& tool, double s, double x
   constexpr double kHalf = 0.75;
   constexpr float kEnough = 16;
   const Vector2d across(-tool.along.y(), tool.along.x());
-  const cv::Vec3f step = change.signedAt(tool.at(s) + (x + kHalf) * across) -
-                         change.signedAt(tool.at(s) + (x - kHalf) * across);
+  const cv::Vec3f step =
+      change.at(tool.at(s) + (x + kHalf) * across) - change.at(tool.at(s) + (x - kHalf) * across);
   return std::min(kEnough, std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])}));
 }
 
@@ -199,7 +128,7 @@ std::optional<double> coreAt(const Change& change, const ToolInPicture& tool, do
   const Vector2d across(-tool.along.y(), tool.along.x());
   double weight = 0, moment = 0;
   for (double x = -reach; x <= reach; x += 0.5) {
-    const auto place = [&](double at) { return light(change.now(tool.at(s) + at * across)); };
+    const auto place = [&](double at) { return brightness(change.now(tool.at(s) + at * across)); };
     const double ridge = place(x) - 0.5 * (place(x - 2.5) + place(x + 2.5));
     if (ridge < 15 || change.size(tool.at(s) + x * across) < kChanged) continue;
     weight += ridge * ridge;
@@ -234,12 +163,12 @@ bool isNeedle(const Change& change, const ToolInPicture& tool, double s) {
   const auto place = [&](double x) { return Vector2d(tool.at(s) + x * across); };
   float core = 0, beside = 255, changed = 0;
   for (double x = -1; x <= 1; x += 0.5) {
-    core = std::max(core, light(change.now(place(x))));
+    core = std::max(core, brightness(change.now(place(x))));
     changed = std::max(changed, change.size(place(x)));
   }
   for (double x = 1.5; x <= kNeedleHalf_px; x += 0.5)
     for (const double sign : {-1.0, 1.0})
-      beside = std::min(beside, light(change.now(place(sign * x))));
+      beside = std::min(beside, brightness(change.now(place(sign * x))));
   return core - beside > kLighter && changed > kChanged;
 }
 
@@ -308,21 +237,21 @@ std::optional<double> tintOf(const Change& change, const ToolInPicture& tool) {
   return last > tool.tip + 2 ? std::optional(last) : std::nullopt;
 }
 
-}  // namespace
-
-cv::Mat1f shadeOf(const cv::Mat3b& before, const cv::Mat3b& now) {
-  const cv::Mat3f a = softened(before), b = softened(now);
-  cv::Mat1f shade(a.size(), 0.f);
-  for (int v = 0; v < a.rows; ++v)
-    for (int u = 0; u < a.cols; ++u) {
-      std::array<float, 3> lost{};
-      for (int k = 0; k < 3; ++k) lost[std::size_t(k)] = 1 - (b(v, u)[k] + 1) / (a(v, u)[k] + 1);
-      const auto [low, high] = std::minmax_element(lost.begin(), lost.end());
-      if (*low > 0.02f && *high < kDarkest && *high - *low < kOneColour)
-        shade(v, u) = (lost[0] + lost[1] + lost[2]) / 3;
-    }
-  return shade;
+/// The direction of these points' line, unit: from the hub to where the tool is broader, as a
+/// syringe is.
+Vector2d towardPlunger(const std::vector<cv::Point>& tool, const Vector2d& hub_px) {
+  cv::Vec4f line;
+  cv::fitLine(tool, line, cv::DIST_HUBER, 0, 0.01, 0.01);
+  const Vector2d along(line[0], line[1]), across(-along.y(), along.x());
+  double broad = 0;
+  for (const cv::Point& p : tool) {
+    const Vector2d off = Vector2d(p.x, p.y) - hub_px;
+    broad += std::copysign(std::pow(off.dot(across), 2), off.dot(along));
+  }
+  return broad < 0 ? Vector2d(-along) : along;
 }
+
+}  // namespace
 
 std::optional<ToolInPicture> toolIn(const cv::Mat3b& before, const cv::Mat3b& now) {
   const Change change(before, now);
@@ -333,17 +262,7 @@ std::optional<ToolInPicture> toolIn(const cv::Mat3b& before, const cv::Mat3b& no
   if (all.size() < 200) return std::nullopt;
   ToolInPicture tool;
   tool.hub_px = meanOf(hub_points);
-  cv::Vec4f line;
-  cv::fitLine(all, line, cv::DIST_HUBER, 0, 0.01, 0.01);
-  tool.along = Vector2d(line[0], line[1]);
-  // A syringe is broader than a needle.
-  const Vector2d across(-tool.along.y(), tool.along.x());
-  double broad = 0;
-  for (const cv::Point& p : all) {
-    const Vector2d off = Vector2d(p.x, p.y) - tool.hub_px;
-    broad += std::copysign(std::pow(off.dot(across), 2), off.dot(tool.along));
-  }
-  if (broad < 0) tool.along = -tool.along;
+  tool.along = towardPlunger(all, tool.hub_px);
   std::vector<double> hub_places;
   for (const cv::Point& p : hub_points)
     hub_places.push_back(tool.along.dot(Vector2d(p.x, p.y) - tool.hub_px));

@@ -25,7 +25,4 @@ struct ToolInPicture {
 /// Told from what has changed since the picture `before`, of the same view without a tool; RGB.
 std::optional<ToolInPicture> toolIn(const cv::Mat3b& before, const cv::Mat3b& now);
 
-/// How much darker than before, 0 to 1, where the colour is the same: a shadow's.
-cv::Mat1f shadeOf(const cv::Mat3b& before, const cv::Mat3b& now);
-
 }  // namespace palpa::bench
