@@ -110,7 +110,7 @@ TEST(SubtaskSegmentation, LabelsThatHaveNothingToDoWithItAgreeByChance) {
 }
 
 TEST(SubtaskSegmentation, SameSeedSameSegmentationAndAsManyStatesAsAsked) {
-  const std::vector<SubtaskSequence> sequences = plantedSequences(4, 200, 6);
+  const std::vector<SubtaskSequence> sequences = plantedSequences(3, 100, 6);
   int stages = 0;
   const SubtaskSegmentation one =
                                 segment(sequences, {11, 2, [&](const std::string&) { ++stages; }}),
@@ -157,7 +157,7 @@ TEST(SubtaskSegmentation, TheFileSaysTheModelAndTheWordsSayPlainUnits) {
 }
 
 TEST(SubtaskSegmentation, WhatCannotBeCutIsNamed) {
-  const std::vector<SubtaskSequence> good = plantedSequences(4, 200, 6);
+  const std::vector<SubtaskSequence> good = plantedSequences(3, 100, 6);
   EXPECT_TRUE(says(complaint([&] { segment({good[0]}); }),
                    "1 trial is too few: 2 are needed, because some must be held out to judge by. "
                    "Give a recording of more trials, or more recordings"));

@@ -8,6 +8,7 @@
 #include "kinds.h"
 #include "schema_files.h"
 #include "schema_validator.h"
+#include "tests/support/counts.h"
 #include "tests/support/scratch_folder.h"
 
 /// One schema, one reader: what either takes or refuses, the other does. A document of each kind is
@@ -93,6 +94,8 @@ class Agreement : public testing::TestWithParam<Kind> {
 
 TEST_P(Agreement, SchemaAndReaderTakeAndRefuseTheSame) {
   const Limits limits = limitsIn(schema_);
+  const int every = test::fullCounts() ? 1 : 2;
+  int damage_number = 0;
   for (const Sample& sample : kind().samples) {
     const json document = documentOf(sample);
     ASSERT_EQ(readersFault(sample, document), "") << sample.asset;
@@ -103,11 +106,12 @@ TEST_P(Agreement, SchemaAndReaderTakeAndRefuseTheSame) {
       return named;
     }());
     eachDamage(document, limits, [&](const std::string& damage, const json& changed) {
-      compare(sample, damage, changed);
+      if (damage_number++ % every == 0) compare(sample, damage, changed);
     });
   }
-  EXPECT_GT(damages_, 40) << "the damage is not real";
+  EXPECT_GT(damages_, 40 / every) << "the damage is not real";
   EXPECT_LE(told_, kMostToldOf) << "and more";
+  if (every > 1) return;  // an exception may be needed by what was left out
   for (const Exceptions* exceptions : {&kind().stricter, &kind().forgiving})
     for (const std::string& pattern : *exceptions)
       EXPECT_TRUE(used_.count(pattern)) << pattern << " is an exception that nothing needs";
