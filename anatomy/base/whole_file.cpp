@@ -80,19 +80,38 @@ struct Claimed {
   int descriptor = -1;  ///< -1: errno says why not
 };
 
-/// A new file ".NAME.part-PID-N", and `ending`.
-Claimed claim(const fs::path& file, const std::string& ending, mode_t mode) {
+constexpr int kTries = 100;
+
+/// ".NAME.part-PID-N", and `ending`: another one with each call.
+fs::path nameBeside(const fs::path& file, const std::string& ending = "") {
   static std::atomic<unsigned> count{0};
-  constexpr int kTries = 100;
-  const std::string begins = besideBegins(file) + std::to_string(::getpid()) + "-";
+  return folderOf(file) /
+         (besideBegins(file) + std::to_string(::getpid()) + "-" + std::to_string(++count) + ending);
+}
+
+/// A new file of such a name.
+Claimed claim(const fs::path& file, const std::string& ending, mode_t mode) {
   Claimed claimed;
   for (int tries = 0; claimed.descriptor < 0 && tries < kTries; ++tries) {
-    claimed.name = folderOf(file) / (begins + std::to_string(++count) + ending);
+    claimed.name = nameBeside(file, ending);
     claimed.descriptor =
         ::open(claimed.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
     if (claimed.descriptor < 0 && errno != EEXIST) break;
   }
   return claimed;
+}
+
+/// A new file that has no name until it is whole, so that a process that is killed leaves nothing
+/// of it; -1 where the drive, or the system, has no such files.
+int nameless(const fs::path& folder, mode_t mode) {
+  if (::access("/proc/self/fd", X_OK) != 0) return -1;
+  return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+}
+
+/// Names it. False: errno says why not.
+bool nameIt(int descriptor, const fs::path& name) {
+  const std::string open = "/proc/self/fd/" + std::to_string(descriptor);
+  return ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
 }
 
 }  // namespace
@@ -125,7 +144,10 @@ mode_t modeOf(const fs::path& file) {
 }  // namespace
 
 void WholeFile::open() {
-  Claimed claimed = claim(file_, "", readers_ == Readers::owner ? 0600 : modeOf(file_));
+  const mode_t mode = readers_ == Readers::owner ? 0600 : modeOf(file_);
+  descriptor_ = nameless(folderOf(file_), mode);
+  if (descriptor_ >= 0) return;
+  Claimed claimed = claim(file_, "", mode);
   beside_ = std::move(claimed.name);
   descriptor_ = claimed.descriptor;
   if (descriptor_ < 0) fail(errno);
@@ -156,6 +178,13 @@ void WholeFile::finish() {
   flush();
   if (lasts_ == Lasts::yes && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
     fail(errno);
+  const int tries = beside_.empty() ? kTries : 0;
+  for (int i = 0; i < tries; ++i) {
+    const fs::path name = nameBeside(file_);
+    if (nameIt(descriptor_, name)) beside_ = name;
+    if (!beside_.empty() || errno != EEXIST) break;
+  }
+  if (beside_.empty()) fail(errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;
   std::error_code none;
@@ -172,7 +201,7 @@ void WholeFile::finish() {
 void WholeFile::discard() noexcept {
   if (descriptor_ < 0) return;
   ::close(descriptor_);
-  ::unlink(beside_.c_str());
+  if (!beside_.empty()) ::unlink(beside_.c_str());
   descriptor_ = -1;
 }
 

@@ -17,10 +17,10 @@ enum class Lasts { yes, no };
 /// read by no more than that one.
 enum class Readers { by_umask, owner };
 
-/// A file that is there whole or not at all: written beside under a name of its own
-/// (".NAME.part-PID-N"), renamed by finish(). What fails or is left unfinished is removed. A link
-/// of the file's name is replaced, never followed. Never takes the place of a session or of
-/// records. All throw Error.
+/// A file that is there whole or not at all: written without a name (on drives that have no such
+/// files, beside as ".NAME.part-PID-N") and named by finish(), so that of a killed process nothing
+/// is left. What fails or is left unfinished is removed. A link of the file's name is replaced,
+/// never followed. Never takes the place of a session or of records. All throw Error.
 class WholeFile {
  public:
   explicit WholeFile(const std::filesystem::path& file, Lasts lasts = Lasts::yes,

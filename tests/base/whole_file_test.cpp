@@ -1,5 +1,6 @@
 #include "anatomy/base/whole_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -50,6 +51,20 @@ TEST(WholeFile, NeverTakesThePlaceOfADatabase) {
   EXPECT_EQ(test::slurp(folder / "session.palpa"), evidence);
   std::ofstream(folder / "short.txt") << "SQLite";
   EXPECT_NO_THROW(writeWhole(folder / "short.txt", "text"));
+}
+
+/// A process that is killed meanwhile leaves nothing.
+TEST(WholeFile, HasNoNameBeforeItIsWhole) {
+  const auto folder = test::freshFolder("base", "nameless");
+  const int tried = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (tried < 0) GTEST_SKIP() << "this drive has no files without a name";
+  ::close(tried);
+  WholeFile file(folder / "a.txt");
+  file.write(std::string(1 << 20, 'a'));
+  EXPECT_TRUE(fs::is_empty(folder));
+  file.finish();
+  EXPECT_EQ(fs::file_size(folder / "a.txt"), 1u << 20);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
 /// Whoever may write into the folder lays links where the next files will be written.

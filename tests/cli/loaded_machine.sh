@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # loaded_machine.sh PROGRAM fast|real [COUNT]: 20 sessions (COUNT) of a simulated expert beside 16
-#   processes that take all the time they get. In virtual time all end with report and trials.csv; in
-#   real time at least half of them, and each of the others says in a line why it did not.
+#   processes that take all the time they get. In virtual time all end with report and trials.csv;
+#   in real time at least half of them, and each of the others says in a line why it did not.
 # Needs PALPA_FULL=1 or COUNT; skipped otherwise, code 77.
 set -uo pipefail
 palpa=$1 kind=$2 asked=${3:-}
