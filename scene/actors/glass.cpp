@@ -68,10 +68,11 @@ double nearest(const Vec3& low, const Vec3& high, const Vec3& eye) {
 
 const std::vector<std::uint32_t>& FarFirst::order(const std::vector<float>& distances) {
   constexpr int kBits = 8, kDigits = 1 << kBits;
+  constexpr float kAlike = 1e-9f;  // m
   const auto [near, far] = std::minmax_element(distances.begin(), distances.end());
   order_.resize(distances.size());
   std::iota(order_.begin(), order_.end(), 0u);
-  if (near == far || *near == *far) return order_;
+  if (near == far || !(*far - *near > kAlike)) return order_;
   const float farthest = *far, scale = 65535 / (*far - *near);
   keys_.resize(distances.size());
   for (std::size_t i = 0; i < keys_.size(); ++i)
