@@ -1,6 +1,7 @@
 #include "scene/renderer_setup.h"
 
 #include <vtkActor.h>
+#include <vtkCullerCollection.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -42,6 +43,9 @@ void setWrites(vtkMapper& mapper, bool colours, bool depths) {
 }
 
 void setUpRenderer(vtkRenderer& renderer, const Rgb& background) {
+  // Hardly anything is ever out of sight, and to find that out costs the bounds of everything that
+  // has changed, in every frame.
+  renderer.GetCullers()->RemoveAllItems();
   renderer.SetBackground(background[0], background[1], background[2]);
   renderer.InteractiveOff();
   renderer.AutomaticLightCreationOff();
