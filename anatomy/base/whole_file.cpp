@@ -75,29 +75,33 @@ void removeForgotten(const fs::path& file) {
   }
 }
 
+/// Tries names ".NAME.part-PID-N", and `ending`, until `take` has one; empty: errno says why not.
+template <class Take>
+fs::path freeNameBeside(const fs::path& file, const std::string& ending, const Take& take) {
+  static std::atomic<unsigned> count{0};
+  constexpr int kTries = 100;
+  const std::string begins = besideBegins(file) + std::to_string(::getpid()) + "-";
+  for (int tries = 0; tries < kTries; ++tries) {
+    fs::path name = folderOf(file) / (begins + std::to_string(++count) + ending);
+    if (take(name)) return name;
+    if (errno != EEXIST) break;
+  }
+  return {};
+}
+
 struct Claimed {
   fs::path name;
   int descriptor = -1;  ///< -1: errno says why not
 };
 
-constexpr int kTries = 100;
-
-/// ".NAME.part-PID-N", and `ending`: another one with each call.
-fs::path nameBeside(const fs::path& file, const std::string& ending = "") {
-  static std::atomic<unsigned> count{0};
-  return folderOf(file) /
-         (besideBegins(file) + std::to_string(::getpid()) + "-" + std::to_string(++count) + ending);
-}
-
 /// A new file of such a name.
 Claimed claim(const fs::path& file, const std::string& ending, mode_t mode) {
   Claimed claimed;
-  for (int tries = 0; claimed.descriptor < 0 && tries < kTries; ++tries) {
-    claimed.name = nameBeside(file, ending);
+  claimed.name = freeNameBeside(file, ending, [&](const fs::path& name) {
     claimed.descriptor =
-        ::open(claimed.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
-    if (claimed.descriptor < 0 && errno != EEXIST) break;
-  }
+        ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    return claimed.descriptor >= 0;
+  });
   return claimed;
 }
 
@@ -108,10 +112,12 @@ int nameless(const fs::path& folder, mode_t mode) {
   return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
 }
 
-/// Names it. False: errno says why not.
-bool nameIt(int descriptor, const fs::path& name) {
+/// Its first name, beside the file; empty: errno says why it has none.
+fs::path named(int descriptor, const fs::path& file) {
   const std::string open = "/proc/self/fd/" + std::to_string(descriptor);
-  return ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  return freeNameBeside(file, "", [&](const fs::path& name) {
+    return ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  });
 }
 
 }  // namespace
@@ -178,12 +184,7 @@ void WholeFile::finish() {
   flush();
   if (lasts_ == Lasts::yes && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
     fail(errno);
-  const int tries = beside_.empty() ? kTries : 0;
-  for (int i = 0; i < tries; ++i) {
-    const fs::path name = nameBeside(file_);
-    if (nameIt(descriptor_, name)) beside_ = name;
-    if (!beside_.empty() || errno != EEXIST) break;
-  }
+  if (beside_.empty()) beside_ = named(descriptor_, file_);
   if (beside_.empty()) fail(errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;

@@ -102,7 +102,6 @@ Glass::~Glass() { window_.RemoveRenderer(renderer_); }
 void Glass::add(vtkActor* actor, vtkPolyData* surface) {
   Surface added;
   added.actor = actor;
-  added.polys = surface;
   added.triangles = trianglesOf(*surface);
   added.middles = middlesOf(*surface, added.triangles);
   const double* b = surface->GetBounds();

@@ -55,7 +55,6 @@ class Glass {
  private:
   struct Surface {
     vtkSmartPointer<vtkActor> actor;
-    vtkSmartPointer<vtkPolyData> polys;
     std::vector<std::array<long long, 3>> triangles;
     std::vector<Eigen::Vector3f> middles;
     Vec3 low, high;

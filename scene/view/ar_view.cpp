@@ -253,9 +253,11 @@ Surroundings ArView::toolOnScreen(const SceneState& state) const {
   return around;
 }
 
+double ArView::lineUnit_px() const { return std::max(window_height_ / 720.0, 1.0); }
+
 void ArView::showNeedleLine(const SceneState& state, bool visible) {
   if (!visible || !state.show_tool || state.tool != Tool::needle) return needle_line_.hide();
-  const double unit_px = std::max(window_height_ / 720.0, 1.0);
+  const double unit_px = lineUnit_px();
   const double scale = state.picture ? double(picture_.width) / state.picture->width : 0;
   needle_line_.update(state, shadows_.entry_A(), X_CA_, pinhole_.fx, unit_px,
                       scale * state.look.blur_px, shows_inside_ && state.skin != SkinStyle::solid);
@@ -265,8 +267,7 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   if (skin_) skin_->update(state.skin_push);
   table_.setVisible(visible && virtual_ && !see_through_);
   shadows_.update(state, visible,
-                  {X_CA_.inverse().translation(),
-                   kShadowHalf_px * std::max(window_height_ / 720.0, 1.0) / pinhole_.fx});
+                  {X_CA_.inverse().translation(), kShadowHalf_px * lineUnit_px() / pinhole_.fx});
   organs_.setStyle(state.skin);
   organs_.setWalls(state.picture == nullptr && !see_through_);  // else one sees the real thing
   organs_.setVisible(visible);

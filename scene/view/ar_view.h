@@ -97,6 +97,7 @@ class ArView {
   void lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind);
   void setUpRenderers();
   void showLines(const SceneState& state, bool visible);
+  double lineUnit_px() const;  ///< a 720th of the window's height, at least a pixel
   void showNeedleLine(const SceneState& state, bool visible);
   void showPatient(const SceneState& state, bool visible);
 

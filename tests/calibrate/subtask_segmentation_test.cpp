@@ -9,6 +9,7 @@
 #include "apps/calibrate/subtask_result.h"
 #include "tests/calibrate/a_calibration.h"
 #include "tests/calibration/complaint.h"
+#include "tests/support/counts.h"
 
 /// Trials of which the regimes are known, cut into states and compared with labels that fit and
 /// labels that do not.
@@ -110,7 +111,8 @@ TEST(SubtaskSegmentation, LabelsThatHaveNothingToDoWithItAgreeByChance) {
 }
 
 TEST(SubtaskSegmentation, SameSeedSameSegmentationAndAsManyStatesAsAsked) {
-  const std::vector<SubtaskSequence> sequences = plantedSequences(3, 100, 6);
+  const std::vector<SubtaskSequence> sequences =
+      test::fullCounts() ? plantedSequences(4, 200, 6) : plantedSequences(3, 100, 6);
   int stages = 0;
   const SubtaskSegmentation one =
                                 segment(sequences, {11, 2, [&](const std::string&) { ++stages; }}),
@@ -157,7 +159,7 @@ TEST(SubtaskSegmentation, TheFileSaysTheModelAndTheWordsSayPlainUnits) {
 }
 
 TEST(SubtaskSegmentation, WhatCannotBeCutIsNamed) {
-  const std::vector<SubtaskSequence> good = plantedSequences(3, 100, 6);
+  const std::vector<SubtaskSequence> good = plantedSequences(4, 200, 6);
   EXPECT_TRUE(says(complaint([&] { segment({good[0]}); }),
                    "1 trial is too few: 2 are needed, because some must be held out to judge by. "
                    "Give a recording of more trials, or more recordings"));

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
-#include "apps/bench/pictures/picture_change.h"
 #include "apps/bench/pictures/tool_in_picture.h"
 
 namespace palpa::bench {
@@ -93,7 +91,7 @@ class Axis {
 /// Where the tool itself is, unseen.
 cv::Mat1f shadowBeside(const ToolInPicture& tool, cv::Mat1f shade) {
   constexpr double kHalf_px = 5;
-  const Vector2d across(-tool.along.y(), tool.along.x());
+  const Vector2d across = tool.across();
   for (int v = 0; v < shade.rows; ++v)
     for (int u = 0; u < shade.cols; ++u) {
       const Vector2d off = Vector2d(u, v) - tool.hub_px;
@@ -159,12 +157,13 @@ class ShadowFit {
 
 std::optional<double> Observer::heightAboveSkin(const cv::Mat3b& before,
                                                 const cv::Mat3b& now) const {
-  const auto tool = toolIn(before, now);
+  const PictureChange change(before, now);
+  const auto tool = toolIn(change);
   if (!tool) return std::nullopt;
   const Axis axis(*tool, knows_);
   if (!axis.makesSense()) return std::nullopt;
   const Vec3 tip = axis.at(tool->tip), back = (axis.at(tool->needle_end) - tip).normalized();
-  const cv::Mat1f shade = shadowBeside(*tool, shadeOf(before, now));
+  const cv::Mat1f shade = shadowBeside(*tool, change.shade().clone());
   const ShadowFit fit(shade, knows_.camera, tip, back, knows_.down_C);
   const auto [off, rate, score] = fit.best();
   return score < kShadow ? kHiddenGap : off;
@@ -172,7 +171,7 @@ std::optional<double> Observer::heightAboveSkin(const cv::Mat3b& before,
 
 std::optional<double> Observer::depthBehindSkin(const cv::Mat3b& before,
                                                 const cv::Mat3b& now) const {
-  const auto tool = toolIn(before, now);
+  const auto tool = toolIn(PictureChange(before, now));
   if (!tool) return std::nullopt;
   const auto entry = tool->ring ? tool->ring : tool->tint;
   if (!entry) return kHiddenDepth;

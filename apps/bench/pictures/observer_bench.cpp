@@ -2,12 +2,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <opencv2/core.hpp>
 
 #include "anatomy/base/quantile.h"
 #include "anatomy/base/random.h"
+#include "anatomy/base/units.h"
 #include "anatomy/query/triangle_tree.h"
 #include "apps/bench/bench.h"
 #include "apps/bench/bench_patients.h"
@@ -23,7 +24,6 @@ namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr double kFocal_px = 1100;
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kHeightBound = 0.003, kDepthBound = 0.005;  // m
 constexpr double kLeastFromSight = 30 * kDegree;
 constexpr double kHighest = 0.040, kDeepest = 0.050;  // m
@@ -42,31 +42,10 @@ class Poses {
         vein_A_(patient.landmark(anatomy::landmark::kVeinTarget)),
         skin_(skinOf(patient)) {}
 
-  Shown above(int i) const { return draw(i, "above"); }
-  Shown inside(int i) const { return draw(i, "inside"); }
-
- private:
-  static const anatomy::TriangleMesh& skinOf(const anatomy::Patient& patient) {
-    return std::find_if(patient.organs.begin(), patient.organs.end(),
-                        [](const auto& organ) { return organ.organ == Organ::skin; })
-        ->mesh;
-  }
-
-  /// How far along this way the skin begins; none within `length`.
-  std::optional<double> skinAlong(const Vec3& from_A, const Vec3& way, double length) const {
-    std::array<anatomy::TriangleTree::Crossing, 16> crossings;
-    bool lost = false;
-    const int count = skin_.cast(from_A, way, length, crossings.data(), 16, &lost);
-    std::optional<double> first;
-    for (int k = 0; k < count; ++k)
-      if (const double s = crossings[std::size_t(k)].s; !first || s < *first) first = s;
-    return first;
-  }
-
-  /// All before the puncture, or all after it. Others than those that the observer was made with.
-  Shown draw(int i, const char* kind) const {
-    RandomStream random(std::uint64_t(i) + 1, std::string("bench.observer.unseen.") + kind);
-    const bool inside = kind[0] == 'i';
+  /// Before the puncture, or after it. Others than those that the observer was made with.
+  Shown draw(int i, bool inside) const {
+    RandomStream random(std::uint64_t(i) + 1,
+                        std::string("bench.observer.unseen.") + (inside ? "inside" : "above"));
     for (;;) {
       Vec3 way = (vein_A_ - entry_A_).normalized();
       for (int k = 0; k < 3; ++k) way[k] += 0.15 * random.normal();
@@ -87,6 +66,24 @@ class Poses {
       shown.X_CA = lookFrom(on_skin - 0.05 * way, &random);
       if (isSeenFromTheSide(shown)) return shown;
     }
+  }
+
+ private:
+  static const anatomy::TriangleMesh& skinOf(const anatomy::Patient& patient) {
+    return std::find_if(patient.organs.begin(), patient.organs.end(),
+                        [](const auto& organ) { return organ.organ == Organ::skin; })
+        ->mesh;
+  }
+
+  /// How far along this way the skin begins; none within `length`.
+  std::optional<double> skinAlong(const Vec3& from_A, const Vec3& way, double length) const {
+    std::array<anatomy::TriangleTree::Crossing, 16> crossings;
+    bool lost = false;
+    const int count = skin_.cast(from_A, way, length, crossings.data(), 16, &lost);
+    std::optional<double> first;
+    for (int k = 0; k < count; ++k)
+      if (const double s = crossings[std::size_t(k)].s; !first || s < *first) first = s;
+    return first;
   }
 
   /// Nobody tells anything of a needle along which he looks.
@@ -146,18 +143,21 @@ Observer::Knows knows(const scene::Pinhole& camera, const Shown& shown) {
           size.barrel_radius};
 }
 
-/// m; of what is not seen, as far as the farthest.
-std::vector<double> errorsOf(const Poses& poses, Stage* stage, int count, bool inside,
-                             bool shadows) {
-  std::vector<double> errors;
+/// m, by whether there are shadow and ring; of what is not seen, as far as the farthest.
+std::map<bool, std::vector<double>> errorsOf(const Poses& poses, Stage* stage, int count,
+                                             bool inside) {
+  std::map<bool, std::vector<double>> errors;
   for (int i = 0; i < count; ++i) {
-    const Shown shown = inside ? poses.inside(i) : poses.above(i);
+    const Shown shown = poses.draw(i, inside);
     const Observer observer(knows(stage->camera(), shown));
-    const cv::Mat3b before = stage->picture(shown, false, shadows),
-                    now = stage->picture(shown, true, shadows);
-    const auto said =
-        inside ? observer.depthBehindSkin(before, now) : observer.heightAboveSkin(before, now);
-    errors.push_back(said ? std::abs(*said - (inside ? shown.depth : shown.height)) : kDeepest);
+    const cv::Mat3b before = stage->picture(shown, false, false);
+    for (const bool shadows : {true, false}) {
+      const cv::Mat3b now = stage->picture(shown, true, shadows);
+      const auto said =
+          inside ? observer.depthBehindSkin(before, now) : observer.heightAboveSkin(before, now);
+      const double truth = inside ? shown.depth : shown.height;
+      errors[shadows].push_back(said ? std::abs(*said - truth) : kDeepest);
+    }
     if (i % 50 == 49)
       std::fprintf(stderr, "%s: %d of %d poses\n", inside ? "inside" : "above", i + 1, count);
   }
@@ -170,9 +170,8 @@ void benchObserver(const ObserverBenchOptions& options) {
   const anatomy::Patient patient = referenceBust();
   const Poses poses(patient);
   Stage stage(patient);
-  for (const bool shadows : {true, false})
-    for (const bool inside : {false, true}) {
-      const std::vector<double> errors = errorsOf(poses, &stage, options.poses, inside, shadows);
+  for (const bool inside : {false, true})
+    for (const auto& [shadows, errors] : errorsOf(poses, &stage, options.poses, inside)) {
       const double bound = inside ? kDepthBound : kHeightBound;
       const auto within =
           std::count_if(errors.begin(), errors.end(), [&](double e) { return e <= bound; });

@@ -44,12 +44,8 @@ cv::Mat1b where(const cv::Size& size, const Is& is) {
   return mask;
 }
 
-}  // namespace
-
-float brightness(const cv::Vec3f& rgb) { return (rgb[0] + rgb[1] + rgb[2]) / 3; }
-
-cv::Mat1f shadeOf(const cv::Mat3b& before, const cv::Mat3b& now) {
-  const cv::Mat3f a = softened(before), b = softened(now);
+/// From a to b.
+cv::Mat1f shadeOf(const cv::Mat3f& a, const cv::Mat3f& b) {
   cv::Mat1f shade(a.size(), 0.f);
   for (int v = 0; v < a.rows; ++v)
     for (int u = 0; u < a.cols; ++u) {
@@ -62,8 +58,12 @@ cv::Mat1f shadeOf(const cv::Mat3b& before, const cv::Mat3b& now) {
   return shade;
 }
 
+}  // namespace
+
+float brightness(const cv::Vec3f& rgb) { return (rgb[0] + rgb[1] + rgb[2]) / 3; }
+
 PictureChange::PictureChange(const cv::Mat3b& before, const cv::Mat3b& now)
-    : before_(softened(before)), now_(softened(now)), shade_(shadeOf(before, now)) {}
+    : before_(softened(before)), now_(softened(now)), shade_(shadeOf(before_, now_)) {}
 
 cv::Vec3f PictureChange::now(const Vector2d& p) const { return between(now_, p); }
 cv::Vec3f PictureChange::at(const Vector2d& p) const {

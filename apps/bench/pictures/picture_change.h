@@ -8,9 +8,6 @@ namespace palpa::bench {
 /// Mean of the channels.
 float brightness(const cv::Vec3f& rgb);
 
-/// How much darker than before, 0 to 1, where the colour is the same: a shadow's. RGB.
-cv::Mat1f shadeOf(const cv::Mat3b& before, const cv::Mat3b& now);
-
 /// What has changed from one picture to another of the same view, in levels, at places between
 /// pixels. RGB, softened against grain.
 class PictureChange {
@@ -27,6 +24,8 @@ class PictureChange {
   float pinker(const Eigen::Vector2d& p) const;
   bool inside(const Eigen::Vector2d& p) const;
 
+  /// Of pixels: how much darker than before, 0 to 1, where the colour is the same: a shadow's.
+  const cv::Mat1f& shade() const { return shade_; }
   cv::Mat1b pink() const;   ///< pixels that have become pinker
   cv::Mat1b thing() const;  ///< that have changed and are no shadow
 

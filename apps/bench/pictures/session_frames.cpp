@@ -33,11 +33,8 @@ SessionFrames::SessionFrames(const anatomy::Patient& patient)
   state_.look = usualLook();
 }
 
-const scene::SceneState& SessionFrames::at(int i) {
+double SessionFrames::work(int i) {
   const double sway = std::sin(0.1 * i);
-  for (std::size_t k = 0; k < picture_.pixels.size(); k += 97)
-    picture_.pixels[k] = static_cast<std::uint8_t>(i);
-  state_.X_CA = lookAt(entry_A_ + Vec3(0.002 * sway + sideways_, -0.45, 0.10), entry_A_);
   state_.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(),
                          entry_A_ + Vec3(0, 0.01 * sway, 0));
   state_.forces = {{scene::ForceKind::reaction, state_.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
@@ -46,13 +43,21 @@ const scene::SceneState& SessionFrames::at(int i) {
   std::snprintf(force, sizeof force, "%.1f N",
                 1 + 0.01 * (i / 6 % 10));  // words change a few times a second
   state_.hud.force = force;
+  return sway;
+}
+
+const scene::SceneState& SessionFrames::at(int i) {
+  const double sway = work(i);
+  for (std::size_t k = 0; k < picture_.pixels.size(); k += 97)
+    picture_.pixels[k] = static_cast<std::uint8_t>(i);
+  state_.X_CA = lookAt(entry_A_ + Vec3(0.002 * sway + sideways_, -0.45, 0.10), entry_A_);
   return state_;
 }
 
 const scene::SceneState& SessionFrames::forEyes(int i, double t_s, int width, int height) {
   constexpr double kTangent = 1.1;  // of half the width and half the height an eye sees
   constexpr double kBetween = 0.063;
-  at(i);
+  work(i);
   const double turns = 2 * std::numbers::pi * t_s;
   const Vec3 head =
       entry_A_ + Vec3(0.028 * std::sin(0.25 * turns), -0.45 + 0.02 * std::sin(0.1 * turns),

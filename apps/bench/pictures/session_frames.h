@@ -27,6 +27,7 @@ class SessionFrames {
   const scene::SceneState& forEyes(int i, double t_s, int width, int height);
 
  private:
+  double work(int i);  ///< tool, arrows and words; how far the sway is
   scene::Image picture_;
   scene::SceneState state_;
   Vec3 entry_A_;

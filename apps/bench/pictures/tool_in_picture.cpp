@@ -6,7 +6,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/base/quantile.h"
-#include "apps/bench/pictures/picture_change.h"
 
 namespace palpa::bench {
 namespace {
@@ -61,7 +60,7 @@ cv::Mat1b hubOf(const cv::Mat1b& pink) {
 float edgeAt(const Change& change, const ToolInPicture& tool, double s, double x) {
   constexpr double kHalf = 0.75;
   constexpr float kEnough = 16;
-  const Vector2d across(-tool.along.y(), tool.along.x());
+  const Vector2d across = tool.across();
   const cv::Vec3f step =
       change.at(tool.at(s) + (x + kHalf) * across) - change.at(tool.at(s) + (x - kHalf) * across);
   return std::min(kEnough, std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])}));
@@ -125,7 +124,7 @@ void findBarrel(const Change& change, double back, ToolInPicture* tool) {
 /// Of the needle's light core across the line at s; none where there is no such line.
 std::optional<double> coreAt(const Change& change, const ToolInPicture& tool, double s,
                              double reach) {
-  const Vector2d across(-tool.along.y(), tool.along.x());
+  const Vector2d across = tool.across();
   double weight = 0, moment = 0;
   for (double x = -reach; x <= reach; x += 0.5) {
     const auto place = [&](double at) { return brightness(change.now(tool.at(s) + at * across)); };
@@ -137,9 +136,9 @@ std::optional<double> coreAt(const Change& change, const ToolInPicture& tool, do
   return weight > 0 ? std::optional(moment / weight) : std::nullopt;
 }
 
-/// From there to here, the line through the middles of the needle's core and the hub's pink.
+/// From there to here, the line through the middles of the needle's core.
 void straighten(const Change& change, double from, double to, double reach, ToolInPicture* tool) {
-  const Vector2d across(-tool->along.y(), tool->along.x());
+  const Vector2d across = tool->across();
   std::vector<cv::Point2f> middles;
   for (double s = from; s < to; s += 0.5)
     if (const auto x = coreAt(change, *tool, s, reach)) {
@@ -159,7 +158,7 @@ void straighten(const Change& change, double from, double to, double reach, Tool
 /// A needle here: something that is lighter than what lies right beside it, as thin as a needle.
 bool isNeedle(const Change& change, const ToolInPicture& tool, double s) {
   constexpr float kLighter = 18;  // levels
-  const Vector2d across(-tool.along.y(), tool.along.x());
+  const Vector2d across = tool.across();
   const auto place = [&](double x) { return Vector2d(tool.at(s) + x * across); };
   float core = 0, beside = 255, changed = 0;
   for (double x = -1; x <= 1; x += 0.5) {
@@ -194,7 +193,7 @@ double needleEndOf(const Change& change, const ToolInPicture& tool, double hub_h
 /// Where the syringe ends, along the line.
 double endOf(const Change& change, const ToolInPicture& tool) {
   constexpr double kGap = 28;
-  const Vector2d across(-tool.along.y(), tool.along.x());
+  const Vector2d across = tool.across();
   double last = 0;
   for (double s = 0; s - last < kGap && change.inside(tool.at(s)); s += 1)
     for (double x = -3; x <= 3; x += 1)
@@ -204,7 +203,7 @@ double endOf(const Change& change, const ToolInPicture& tool) {
 
 /// Beside the needle, where nothing else is: the middle of what has become lighter.
 std::optional<double> ringOf(const Change& change, const ToolInPicture& tool) {
-  const Vector2d across(-tool.along.y(), tool.along.x());
+  const Vector2d across = tool.across();
   std::vector<double> bright;
   for (double s = tool.tip + 2; s < tool.needle_end - 2; s += 0.25) {
     double sum = 0;
@@ -227,7 +226,7 @@ std::optional<double> ringOf(const Change& change, const ToolInPicture& tool) {
 /// Where the needle's line turns from the colour of what lies under the skin, red, to steel's.
 std::optional<double> tintOf(const Change& change, const ToolInPicture& tool) {
   constexpr float kRed = 0.31f;  // of red, more than of blue; bone has less
-  const Vector2d across(-tool.along.y(), tool.along.x());
+  const Vector2d across = tool.across();
   double last = tool.tip;
   for (double s = tool.tip; s < tool.needle_end; s += 0.25)
     for (double x = -1; x <= 1; x += 0.5)
@@ -253,8 +252,7 @@ Vector2d towardPlunger(const std::vector<cv::Point>& tool, const Vector2d& hub_p
 
 }  // namespace
 
-std::optional<ToolInPicture> toolIn(const cv::Mat3b& before, const cv::Mat3b& now) {
-  const Change change(before, now);
+std::optional<ToolInPicture> toolIn(const Change& change) {
   const cv::Mat1b hub = hubOf(change.pink());
   const std::vector<cv::Point> hub_points = pointsOf(hub);
   if (hub_points.size() < 30) return std::nullopt;

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
+
+#include "apps/bench/pictures/picture_change.h"
 
 namespace palpa::bench {
 
@@ -20,9 +21,10 @@ struct ToolInPicture {
   std::optional<double> ring, tint;  ///< s of a ring about the needle, of its change of colour
 
   Eigen::Vector2d at(double s) const { return hub_px + s * along; }
+  Eigen::Vector2d across() const { return {-along.y(), along.x()}; }
 };
 
-/// Told from what has changed since the picture `before`, of the same view without a tool; RGB.
-std::optional<ToolInPicture> toolIn(const cv::Mat3b& before, const cv::Mat3b& now);
+/// Told from what has changed since a picture of the same view without a tool.
+std::optional<ToolInPicture> toolIn(const PictureChange& change);
 
 }  // namespace palpa::bench
