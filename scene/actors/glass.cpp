@@ -59,6 +59,14 @@ vtkSmartPointer<vtkCellArray> listOf(std::size_t triangles) {
   return cells;
 }
 
+/// VTK's own translucent pass knows no order; its opaque pass draws one actor after the other, and
+/// blends. What is nearer by a hair must not wipe out what comes next: no depths.
+void drawInOrder(vtkActor& actor) {
+  actor.ForceOpaqueOn();
+  setWrites(*actor.GetMapper(), true, false);
+  actor.GetProperty()->BackfaceCullingOn();
+}
+
 /// Of the box's nearest point.
 double nearest(const Vec3& low, const Vec3& high, const Vec3& eye) {
   return (eye.cwiseMax(low).cwiseMin(high) - eye).norm();
@@ -109,12 +117,7 @@ void Glass::add(vtkActor* actor, vtkPolyData* surface) {
   surface->SetPolys(added.sorted);
   added.low = {b[0], b[2], b[4]};
   added.high = {b[1], b[3], b[5]};
-  // VTK's own translucent pass knows no order; its opaque pass draws one actor after the other, and
-  // blends.
-  actor->ForceOpaqueOn();
-  setWrites(*actor->GetMapper(), true,
-            false);  // what is nearer by a hair must not wipe out what comes next
-  actor->GetProperty()->BackfaceCullingOn();
+  drawInOrder(*actor);
   surfaces_.push_back(std::move(added));
   sorted_ = false;
 }
@@ -124,6 +127,12 @@ void Glass::remove(vtkActor* actor) {
   actor->ForceOpaqueOff();
   setWrites(*actor->GetMapper(), true, true);
   renderer_->RemoveActor(actor);
+}
+
+void Glass::addBefore(vtkActor* actor) {
+  drawInOrder(*actor);
+  before_.push_back(actor);
+  sorted_ = false;
 }
 
 void Glass::sort(const Surface& surface, const Vec3& eye) {
@@ -143,6 +152,7 @@ void Glass::order(const Vec3& eye) {
   });
   renderer_->RemoveAllViewProps();
   for (const Surface& surface : surfaces_) renderer_->AddActor(surface.actor);
+  for (vtkActor* actor : before_) renderer_->AddActor(actor);
 }
 
 void Glass::look(const Vec3& eye) {

@@ -47,6 +47,8 @@ class Glass {
   /// `surface` is what the actor shows, by a mapper of `makePassMapper`; it has triangles only.
   void add(vtkActor* actor, vtkPolyData* surface);
   void remove(vtkActor* actor);
+  /// What moves before all of them, by such a mapper too: drawn after them, unsorted.
+  void addBefore(vtkActor* actor);
   /// Before a frame: the eye in the surfaces' frame.
   void look(const Vec3& eye);
 
@@ -66,6 +68,7 @@ class Glass {
   vtkRenderWindow& window_;
   vtkNew<vtkRenderer> renderer_;
   std::vector<Surface> surfaces_;
+  std::vector<vtkActor*> before_;
   FarFirst far_first_;
   std::vector<float> distances_;
   Vec3 sorted_for_;

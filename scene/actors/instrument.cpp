@@ -11,11 +11,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/actors/glass.h"
 #include "scene/actors/mesh_builder.h"
+#include "scene/renderer_setup.h"
 
 namespace palpa::scene {
 namespace {
 
+constexpr double kClear = 0.28;               // the barrel's opacity
 constexpr double kUp = std::numbers::pi / 2;  // angle of +y, where the bevel opens
 
 /// The ground tip: the tube cut by a plane through the tip point (at -y) and `bevel_length` behind
@@ -144,8 +147,8 @@ vtkSmartPointer<vtkPolyData> silhouetteShape(const InstrumentSize& size) {
 
 namespace {
 
-void dress(vtkActor& actor, const vtkSmartPointer<vtkPolyData>& mesh, double specular) {
-  vtkNew<vtkPolyDataMapper> mapper;
+void dress(vtkActor& actor, const vtkSmartPointer<vtkPolyData>& mesh, double specular,
+           vtkSmartPointer<vtkPolyDataMapper> mapper = vtkSmartPointer<vtkPolyDataMapper>::New()) {
   mapper->SetInputData(mesh);
   actor.SetMapper(mapper);
   actor.GetProperty()->SetAmbient(0.22);
@@ -163,15 +166,15 @@ void copy(const Pose& X, vtkMatrix4x4& matrix) {
     for (int column = 0; column < 4; ++column) matrix.SetElement(row, column, X(row, column));
 }
 
-Instrument::Instrument(vtkRenderer& renderer) {
+Instrument::Instrument(vtkRenderer& renderer, Glass* glass) {
   dress(*needle_, needleShape(size_), 0.45);
-  dress(*barrel_, barrelShape(size_), 0.6);
+  dress(*barrel_, barrelShape(size_), 0.6, makePassMapper());
   dress(*plunger_, plungerShape(size_), 0.2);
   dress(*blood_, bloodShape(size_), 0.3);
   blood_->GetMapper()->ScalarVisibilityOff();  // whose it is says the actor's colour
   dress(*bubbles_, bubblesShape(size_), 0.8);
   dress(*probe_, probeShape({}), 0.35);
-  barrel_->GetProperty()->SetOpacity(0.28);
+  barrel_->GetProperty()->SetOpacity(kClear);
   needle_->GetProperty()->SetLineWidth(1.5);
   needle_->SetUserMatrix(X_AT_);
   barrel_->SetUserMatrix(X_AT_);
@@ -179,12 +182,13 @@ Instrument::Instrument(vtkRenderer& renderer) {
   probe_->SetUserMatrix(X_AT_);
   plunger_->SetUserMatrix(X_A_plunger_);
   blood_->SetUserMatrix(X_A_blood_);
-  for (vtkActor* actor : actors()) renderer.AddActor(actor);
+  for (vtkActor* actor : actors())
+    if (!glass || actor != barrel_.Get()) renderer.AddActor(actor);
+  if (glass) glass->addBefore(barrel_);
 }
 
 Instrument::~Instrument() = default;
 
-/// The clear barrel last.
 std::array<vtkActor*, 6> Instrument::actors() const {
   return {needle_, plunger_, blood_, bubbles_, probe_, barrel_};
 }

@@ -58,13 +58,17 @@ class vtkRenderer;
 
 namespace palpa::scene {
 
+class Glass;
+
 void copy(const Pose& X, vtkMatrix4x4& matrix);
 
 /// What is held in the AR view: the needle with its syringe (clear graduated barrel, plunger,
 /// blood), or the probe.
 class Instrument {
  public:
-  explicit Instrument(vtkRenderer& renderer);
+  /// `glass`: where its clear barrel is drawn, before all that is translucent; null: in `renderer`,
+  /// by VTK's translucent pass.
+  explicit Instrument(vtkRenderer& renderer, Glass* glass = nullptr);
   ~Instrument();
 
   /// `plunger` and `blood` are fractions of the stroke, held to 0..1; blood cannot be more than the

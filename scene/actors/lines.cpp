@@ -43,6 +43,9 @@ void EdgedLines::setWidth(double width_px, double edge_px) {
 EdgedLines::~EdgedLines() = default;
 
 void EdgedLines::show(const std::vector<std::vector<Vec3>>& lines_A) {
+  setVisible(!lines_A.empty());
+  if (lines_A == shown_A_) return;
+  shown_A_ = lines_A;
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   for (const auto& line : lines_A) {
@@ -51,8 +54,6 @@ void EdgedLines::show(const std::vector<std::vector<Vec3>>& lines_A) {
   }
   shape_->SetPoints(points);
   shape_->SetLines(cells);
-  edge_->SetVisibility(!lines_A.empty());
-  line_->SetVisibility(!lines_A.empty());
 }
 
 void EdgedLines::drawThrough() {
@@ -62,10 +63,7 @@ void EdgedLines::drawThrough() {
                                                              "gl_FragDepth = 0.0;\n", false);
 }
 
-void EdgedLines::hide() {
-  edge_->VisibilityOff();
-  line_->VisibilityOff();
-}
+void EdgedLines::hide() { setVisible(false); }
 
 void EdgedLines::setVisible(bool visible) {
   edge_->SetVisibility(visible);

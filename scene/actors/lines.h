@@ -35,6 +35,7 @@ class EdgedLines {
   vtkNew<vtkPolyData> shape_;
   vtkSmartPointer<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> edge_, line_;
+  std::vector<std::vector<Vec3>> shown_A_;
 };
 
 /// Where 95 % of a point's pixels lie, by the covariance of its place: the ellipse

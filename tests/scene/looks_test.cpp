@@ -47,6 +47,8 @@ struct Look {
   double threshold = 0.97;
 };
 
+void PrintTo(const Look& look, std::ostream* out) { *out << look.name; }
+
 SceneState registered(anatomy::Side side = anatomy::Side::right) {
   const Vec3 entry_A = patientOf(side).landmark(anatomy::landmark::kEntry);
   const double outward = side == anatomy::Side::right ? -1 : 1;
