@@ -108,7 +108,8 @@ struct ShownLump {
   bool normal = false;  ///< belongs there: neither found nor missed
 };
 
-/// How a view for two eyes is laid out. anaglyph: for red and cyan glasses. headset: side by side,
+/// How two eyes see it. side_by_side, top_bottom: for screens that halve a picture and stretch each
+/// half over all of it; anaglyph: for red and cyan glasses. headset: side by side, not squeezed,
 /// words before each eye.
 enum class Stereo { none, side_by_side, top_bottom, anaglyph, headset };
 

@@ -104,7 +104,8 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
          "Colours of the force arrows: grays (paper, the default), or ones that colour-blind "
          "people can tell apart (safe)");
   choice(command, "--stereo", o.stereo, kStereos,
-         "The large view for two eyes (default none); anaglyph: for red and cyan glasses");
+         "For two eyes (default none); side-by-side, top-bottom: for 3D screens that halve the "
+         "whole picture; anaglyph: for red and cyan glasses");
   choice(command, "--inset", o.inset, kInsets,
          "A small picture in the corner (default none); camera: what the camera sees, without the "
          "overlay");

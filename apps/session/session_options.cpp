@@ -162,10 +162,6 @@ void settle(SessionOptions& o) {
   if (o.headset && (o.fast || o.no_views))
     throw UsageError("cannot go with --display openxr", o.fast ? "--fast" : "--no-views",
                      "Leave one of them out: a headset shows what happens now");
-  if (o.inset != scene::Inset::none &&
-      (o.stereo == scene::Stereo::side_by_side || o.stereo == scene::Stereo::top_bottom))
-    throw UsageError("would be seen by one eye only", "--inset with --stereo",
-                     "Leave one of them out");
   if (o.assess) settleAssessment(o);
   checkShown(o);
   checkTracking(o);

@@ -12,6 +12,18 @@ constexpr int kPlaces = 24;       // along a part
 
 }  // namespace
 
+Surroundings Surroundings::movedBy(const Eigen::Vector2d& px) const {
+  Surroundings moved = *this;
+  for (Part& part : moved.tool) part.from += px, part.to += px;
+  for (Eigen::Vector2d& point : moved.points) point += px;
+  return moved;
+}
+
+void Surroundings::add(const Surroundings& more) {
+  tool.insert(tool.end(), more.tool.begin(), more.tool.end());
+  points.insert(points.end(), more.points.begin(), more.points.end());
+}
+
 double shareUnder(const Rect& plate, const Surroundings& surroundings, const Rect& panel) {
   constexpr std::array kAcross{-0.9, -0.45, 0.0, 0.45, 0.9};
   double seen = 0, under = 0;

@@ -16,6 +16,9 @@ struct Surroundings {
   };
   std::vector<Part> tool;
   std::vector<Eigen::Vector2d> points;  ///< its tip, and where it went in
+
+  Surroundings movedBy(const Eigen::Vector2d& px) const;
+  void add(const Surroundings& more);
 };
 
 /// The part of the tool's area, as it is seen in `panel`, that lies under a plate; 0 to 1.

@@ -19,57 +19,6 @@
 namespace palpa::scene {
 namespace {
 
-bool same(vtkPropCollection& a, vtkPropCollection& b) {
-  if (a.GetNumberOfItems() != b.GetNumberOfItems()) return false;
-  for (int i = 0; i < a.GetNumberOfItems(); ++i)
-    if (a.GetItemAsObject(i) != b.GetItemAsObject(i)) return false;
-  return true;
-}
-
-void copyProps(vtkRenderer& from, vtkRenderer& to) {
-  if (same(*from.GetViewProps(), *to.GetViewProps())) return;
-  to.RemoveAllViewProps();
-  for (int i = 0; i < from.GetViewProps()->GetNumberOfItems(); ++i)
-    to.AddViewProp(static_cast<vtkProp*>(from.GetViewProps()->GetItemAsObject(i)));
-}
-
-}  // namespace
-
-SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass,
-                     vtkRenderer& on_skin, vtkRenderer& above)
-    : window_(window),
-      first_behind_(behind),
-      first_glass_(glass),
-      first_on_skin_(on_skin),
-      first_above_(above) {
-  forAll([&](vtkRenderer& renderer) {
-    setUpRenderer(renderer, colour::kBehindBottom);
-    renderer.SetActiveCamera(behind_->GetActiveCamera());
-    window_.AddRenderer(&renderer);
-  });
-  behind_->SetBackground2(first_behind_.GetBackground2());
-  glass_->EraseOff();
-  on_skin_->EraseOff();
-  above_->SetLayer(first_above_.GetLayer());
-}
-
-SecondEye::~SecondEye() {
-  forAll([&](vtkRenderer& renderer) { window_.RemoveRenderer(&renderer); });
-}
-
-void SecondEye::mirror() {
-  copyProps(first_behind_, *behind_);
-  copyProps(first_glass_, *glass_);
-  copyProps(first_on_skin_, *on_skin_);
-  copyProps(first_above_, *above_);
-  behind_->SetBackground(first_behind_.GetBackground());
-  behind_->SetGradientBackground(first_behind_.GetGradientBackground());
-  on_skin_->SetDraw(first_on_skin_.GetDraw());
-  above_->SetDraw(first_above_.GetDraw());
-}
-
-namespace {
-
 constexpr double kDistance = 0.42;  // metres from the virtual camera to the entry region
 constexpr double kElevation = 28 * kDegree;
 constexpr double kOnTable = -38 * kDegree;  // somebody who sits before it
@@ -115,7 +64,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
   if (layout.skin_deflection && organs_.skin())
     skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
   setUpRenderers();
-  if (stereo_ != Stereo::none && stereo_ != Stereo::anaglyph)
+  if (stereo_ == Stereo::headset)
     second_ =
         std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *on_skin_, *above_);
 }
@@ -184,7 +133,7 @@ void ArView::applyCameras(const SceneState& state) {
   eyes_ = state.eyes ? *state.eyes
                      : stereoPair(whole, X_CA_, kEyesApart,
                                   std::max((X_CA_ * region_.focus_A).z(), kNearestFocus));
-  eye_panels_ = eyePanels(panel_, stereo_);
+  eye_panels_ = second_ ? halvesOf(panel_) : std::array{panel_, panel_};
   for (std::size_t i = 0; i < 2; ++i) {
     eye_panels_[i] = letterbox(eye_panels_[i], eyes_[i].camera.width, eyes_[i].camera.height);
     eyes_[i].camera = scaled(eyes_[i].camera, eye_panels_[i].width, eye_panels_[i].height);
@@ -226,11 +175,11 @@ void ArView::showLines(const SceneState& state, bool visible) {
     ellipse_.show({ellipse});
 }
 
-Surroundings ArView::toolOnScreen(const SceneState& state) const {
+Surroundings ArView::toolOnScreen(const SceneState& state, std::size_t of) const {
   Surroundings around;
   if (!shows_patient_ || !state.show_tool) return around;
-  const EyeCamera eye = this->eye();
-  const Rect& where = eyePanel();
+  const EyeCamera eye = stereo_ == Stereo::none ? this->eye() : eyes_[of];
+  const Rect& where = stereo_ == Stereo::none ? picture_ : eye_panels_[of];
   const auto depth = [&](const Vec3& p_A) { return std::max((eye.X_CA * p_A).z(), kNearestThing); };
   const auto on_screen = [&](const Vec3& p_A) {
     const Vec3 p = eye.X_CA * p_A / depth(p_A);

@@ -20,39 +20,7 @@
 #include "scene/view/framing.h"
 #include "scene/view/navigation.h"
 #include "scene/view/scene_view.h"
-
-class vtkRenderer;
-class vtkRenderWindow;
-
-namespace palpa::scene {
-
-/// The other eye of a view: the same actors and background as the first eye's four renderers,
-/// another camera.
-class SecondEye {
- public:
-  SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass, vtkRenderer& on_skin,
-            vtkRenderer& above);
-  ~SecondEye();
-
-  /// After the first eye's renderers were brought up to date.
-  void mirror();
-  vtkRenderer& behind() { return *behind_; }  ///< its camera is that of all four
-
-  template <class Do>
-  void forAll(Do act) {
-    act(*behind_);
-    act(*glass_);
-    act(*on_skin_);
-    act(*above_);
-  }
-
- private:
-  vtkRenderWindow& window_;
-  vtkRenderer &first_behind_, &first_glass_, &first_on_skin_, &first_above_;
-  vtkNew<vtkRenderer> behind_, glass_, on_skin_, above_;
-};
-
-}  // namespace palpa::scene
+#include "scene/view/two_eyes.h"
 
 class vtkRenderer;
 class vtkRenderWindow;
@@ -74,7 +42,7 @@ class ArView {
   void addTrail(Trail& trail);
   void place(const Rect& panel, int window_width, int window_height);
   void update(const SceneState& state);
-  /// Of an anaglyph's two eyes the one that is drawn next, 0 or 1.
+  /// Of the two eyes of one merged picture the one that is drawn next, 0 or 1.
   void showEye(std::size_t eye);
 
   bool isVirtual() const { return virtual_; }
@@ -87,8 +55,9 @@ class ArView {
   /// What is seen where: the camera, or the left one of two eyes, and the part of the window that
   /// it fills.
   EyeCamera eye() const { return stereo_ == Stereo::none ? EyeCamera{pinhole_, X_CA_} : eyes_[0]; }
-  /// Where the tool is in the window (the left eye's, of two), its tip and where a needle went in.
-  Surroundings toolOnScreen(const SceneState& state) const;
+  /// Where an eye (0, 1; without stereo 0) has the tool in the window, its tip and where a needle
+  /// went in.
+  Surroundings toolOnScreen(const SceneState& state, std::size_t eye) const;
   const Rect& eyePanel() const { return stereo_ == Stereo::none ? picture_ : eye_panels_[0]; }
 
  private:
@@ -132,8 +101,7 @@ class ArView {
   SearchOverlay search_;
   Compositor compositor_;
   Occluders occluders_;
-  std::unique_ptr<SecondEye>
-      second_;  // null: one camera, or an anaglyph's eyes one after the other
+  std::unique_ptr<SecondEye> second_;  // null: one camera, or eyes one after the other
 };
 
 }  // namespace palpa::scene

@@ -21,6 +21,7 @@
 #include "scene/view/ar_view.h"
 #include "scene/view/navigation.h"
 #include "scene/view/ortho_view.h"
+#include "scene/view/two_eyes.h"
 #include "scene/window/pixels.h"
 
 namespace palpa::scene {
@@ -41,9 +42,9 @@ struct SceneView::Impl {
   vtkNew<vtkRenderer> frame;  // whole window, behind: borders, and what the picture leaves free
   Plates margins;
   vtkNew<vtkRenderer> words;   // whole window, in front
-  vtkNew<vtkRenderer> merged;  // alone: an anaglyph
+  vtkNew<vtkRenderer> merged;  // alone: both eyes' picture
   Backdrop merged_backdrop{*merged, false};
-  Image anaglyph_picture;
+  Image merged_picture;
   Trail trail;
   ArView ar;
   std::vector<std::unique_ptr<OrthoView>> fixed;
@@ -86,12 +87,12 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
   window.AddRenderer(words);
   setUpRenderer(*merged, colour::kBorder);
   merged->DrawOff();
-  if (layout.stereo == Stereo::anaglyph) window.AddRenderer(merged);
+  if (isMerged(layout.stereo)) window.AddRenderer(merged);
 }
 
 SceneView::Impl::~Impl() {
   input.reset();
-  if (layout.stereo == Stereo::anaglyph) window.RemoveRenderer(merged);
+  if (isMerged(layout.stereo)) window.RemoveRenderer(merged);
   window.RemoveRenderer(words);
   window.RemoveRenderer(frame);
 }
@@ -137,7 +138,7 @@ void SceneView::Impl::show(const SceneState& state) {
   if (inset) inset->show(state.beside ? state.beside : state.picture, free, size[0], size[1]);
   writeWords(state);
   window.Render();
-  if (layout.stereo == Stereo::anaglyph) mergeEyes();
+  if (isMerged(layout.stereo)) mergeEyes();
 }
 
 void SceneView::Impl::writeWords(const SceneState& state) {
@@ -145,10 +146,15 @@ void SceneView::Impl::writeWords(const SceneState& state) {
       ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
   Hud text = state.hud;
   if (ar.showsPatient() && state.surface_map) text.scale = scaleOf(*state.surface_map);
-  if (!other_hud) return hud.update(text, forces, panels.ar, size[1], ar.toolOnScreen(state));
+  Surroundings around = ar.toolOnScreen(state, 0);
+  if (isMerged(layout.stereo)) around.add(ar.toolOnScreen(state, 1));
+  if (!other_hud) return hud.update(text, forces, panels.ar, size[1], around);
+  // The same words at the same places of both: they make way for what either eye sees.
   const std::array<Rect, 2> where = wordPanels(ar.eyes(), ar.panelsOfEyes());
-  hud.update(text, forces, where[0], 2 * where[0].height);
-  other_hud->update(text, forces, where[1], 2 * where[1].height);
+  const Eigen::Vector2d to_left(where[0].x - where[1].x, where[0].y - where[1].y);
+  around.add(ar.toolOnScreen(state, 1).movedBy(to_left));
+  hud.update(text, forces, where[0], 2 * where[0].height, around);
+  other_hud->update(text, forces, where[1], 2 * where[1].height, around.movedBy(-to_left));
 }
 
 /// Both eyes one after the other, and then their one picture over the whole window.
@@ -156,8 +162,8 @@ void SceneView::Impl::mergeEyes() {
   const Image left = pixelsOf(window);
   ar.showEye(1);
   window.Render();
-  anaglyph_picture = anaglyph(left, pixelsOf(window));
-  merged_backdrop.show(anaglyph_picture);
+  merged_picture = scene::merged(left, pixelsOf(window), layout.stereo);
+  merged_backdrop.show(merged_picture);
   std::vector<vtkRenderer*> others;
   for (int i = 0; i < window.GetRenderers()->GetNumberOfItems(); ++i) {
     auto* renderer = static_cast<vtkRenderer*>(window.GetRenderers()->GetItemAsObject(i));
@@ -193,6 +199,11 @@ void SceneView::copyEye(std::size_t eye, const TextureTarget& target) const {
 ViewInput SceneView::poll() {
   if (!impl_->input) return {};
   ViewInput input = impl_->input->poll();
+  const auto [width, height] = impl_->size;
+  const Eigen::Vector2d mouse =
+      inEyesPicture({input.mouse_x, input.mouse_y}, width, height, impl_->layout.stereo);
+  input.mouse_x = mouse.x();
+  input.mouse_y = mouse.y();
   if (impl_->layout.free_navigation && impl_->ar.isVirtual())
     impl_->navigation.apply(input, impl_->ar.picture(), impl_->size[1], impl_->ar.orbit());
   return input;

@@ -16,9 +16,9 @@ namespace palpa::scene {
 /// left.
 struct ViewInput {
   bool closed = false;
-  std::vector<std::string> keys;  ///< X key symbols, e.g. "space", "Escape", "p", "Left"
-  double mouse_x = 0, mouse_y = 0;
-  double wheel = 0;  ///< notches since the last call
+  std::vector<std::string> keys;    ///< X key symbols, e.g. "space", "Escape", "p", "Left"
+  double mouse_x = 0, mouse_y = 0;  ///< where two eyes have one picture, in that of each
+  double wheel = 0;                 ///< notches since the last call
   bool left_button = false, right_button = false, middle_button = false;
   bool shift = false, control = false;
 };

@@ -1,4 +1,4 @@
-#include "scene/view/ar_camera.h"
+#include "scene/view/two_eyes.h"
 
 #include <gtest/gtest.h>
 
@@ -34,26 +34,38 @@ TEST(Stereo, DisparityIsThatOfTwoParallelCamerasFocusedAhead) {
   EXPECT_LT((between_C - Vec3(kApart, 0, 0)).norm(), 1e-12);
 }
 
+/// An eye's part of the window, and how much its pixels are squeezed.
+struct Part {
+  int left = 0, top = 0;
+  double across = 1, down = 1;
+};
+std::array<Part, 2> partsOf(Stereo stereo) {
+  if (stereo == Stereo::side_by_side) return {{{0, 0, 0.5, 1}, {320, 0, 0.5, 1}}};
+  if (stereo == Stereo::top_bottom) return {{{0, 0, 1, 0.5}, {0, 240, 1, 0.5}}};
+  return {{{0, 0, 1, 1}, {640, 0, 1, 1}}};
+}
+
 /// Where the centre of a small sphere is drawn in each half, against the projection of that eye;
-/// nine shifts by thirds of a pixel, as for one camera.
-void expectTrueEyes(Stereo layout_of_eyes) {
+/// nine shifts by thirds of one of its pixels, as for one camera.
+void expectTrueEyes(Stereo stereo) {
+  const int least = stereo == Stereo::headset ? 40 : 20;  // squeezed, pixels at the edge are halves
   const double radius = 0.012;
   const Vec3 p_A(0.03, 0.02, -0.03);
   const auto patient = test::spherePatient(p_A, radius);
   ViewLayout layout{640, 480, FixedViews::none, true};
-  layout.stereo = layout_of_eyes;
-  if (layout_of_eyes != Stereo::top_bottom) layout.width *= 2;
-  if (layout_of_eyes == Stereo::top_bottom) layout.height *= 2;
+  layout.stereo = stereo;
+  if (stereo == Stereo::headset) layout.width *= 2;
   SceneView view(offscreen(), patient, layout);
   const Image dark = plain(640, 480, 0);
   SceneState state = through(dark, lookAt({-0.10, -0.35, 0.12}, {0.01, 0.02, -0.01}));
+  const auto parts = partsOf(stereo);
   std::array<Eigen::Vector2d, 2> error{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   for (int i = 0; i < 9; ++i) {
     state.eyes = stereoPair(crookedCamera(), state.X_CA, kApart, kFocus);
     (*state.eyes)[1].camera.fx = 560;  // eyes need not be alike
     for (EyeCamera& eye : *state.eyes) {
-      eye.camera.cx += i % 3 / 3.0;
-      eye.camera.cy += i / 3 % 3 / 3.0;
+      eye.camera.cx += i % 3 / 3.0 / parts[0].across;
+      eye.camera.cy += i / 3 % 3 / 3.0 / parts[0].down;
     }
     view.show(state);
     const ArGeometry left = view.arGeometry();  // what the mouse meets
@@ -61,19 +73,21 @@ void expectTrueEyes(Stereo layout_of_eyes) {
     EXPECT_NEAR(left.camera.cx, (*state.eyes)[0].camera.cx, 1e-9);
     EXPECT_EQ(left.width, 640);
     const Image frame = view.capture();
-    const auto panels = eyePanels({0, 0, layout.width, layout.height}, layout_of_eyes);
     for (std::size_t e = 0; e < 2; ++e) {
-      const int top = layout.height - panels[e].top();
+      const Part& part = parts[e];
       const Blob disc = blobOf(frame, [&](int u, int v) {
-        return panels[e].contains(u, layout.height - 1 - v) && at(frame, u, v).b > 40;
+        return u >= part.left && u < part.left + 640 * part.across && v >= part.top &&
+               v < part.top + 480 * part.down && at(frame, u, v).b > least;
       });
       ASSERT_GT(disc.count, 300);
       const EyeCamera& eye = (*state.eyes)[e];
       const Vec3 c = eye.X_CA * p_A;
       const double k = c.z() / (c.z() * c.z() - radius * radius);  // the ellipse's centre
-      const Eigen::Vector2d expected(eye.camera.fx * c.x() * k + eye.camera.cx + panels[e].x,
-                                     eye.camera.fy * c.y() * k + eye.camera.cy + top);
-      error[e] += (Eigen::Vector2d(disc.u, disc.v) - expected) / 9;
+      const Eigen::Vector2d expected(eye.camera.fx * c.x() * k + eye.camera.cx,
+                                     eye.camera.fy * c.y() * k + eye.camera.cy);
+      const Eigen::Vector2d found((disc.u + 0.5 - part.left) / part.across - 0.5,
+                                  (disc.v + 0.5 - part.top) / part.down - 0.5);
+      error[e] += (found - expected) / 9;
     }
   }
   EXPECT_LT(error[0].norm(), 0.1);
@@ -82,8 +96,57 @@ void expectTrueEyes(Stereo layout_of_eyes) {
 
 TEST(Stereo, EachEyeSeesATenthOfAPixelTrueSideBySide) { expectTrueEyes(Stereo::side_by_side); }
 TEST(Stereo, EachEyeSeesATenthOfAPixelTrueOneAboveTheOther) { expectTrueEyes(Stereo::top_bottom); }
-
 TEST(Stereo, EachEyeSeesATenthOfAPixelTrueOnTheHead) { expectTrueEyes(Stereo::headset); }
+
+/// A screen halves all of a picture: what one eye alone would see hurts.
+TEST(Stereo, BothHalvesOfAPictureHaveEveryWordAndView) {
+  for (const Stereo stereo : {Stereo::side_by_side, Stereo::top_bottom}) {
+    ViewLayout layout{960, 540, FixedViews::three, true};
+    layout.stereo = stereo;
+    SceneView view(offscreen(), test::simplePatient(), layout);
+    SceneState bare;
+    bare.show_tool = false;
+    SceneState said = bare;
+    said.hud.phase = "phase 2";
+    said.hud.mark = "SIMULATED";
+    said.hud.time = "0:31";
+    view.show(bare);
+    const Image without = view.capture();
+    view.show(said);
+    const Image with = view.capture();
+    const int across = stereo == Stereo::side_by_side ? 480 : 0, down = across ? 0 : 270;
+    long words = 0, one_eye = 0, unlike_views = 0;
+    for (int v = 0; v < 540 - down; ++v)
+      for (int u = 0; u < 960 - across; ++u) {
+        const bool left = difference(at(with, u, v), at(without, u, v)) > 40,
+                   right = difference(at(with, u + across, v + down),
+                                      at(without, u + across, v + down)) > 40;
+        words += left || right;
+        one_eye += left != right;
+        const bool in_fixed_view = u > (across ? 480 : 960) * 0.72;
+        unlike_views +=
+            in_fixed_view && difference(at(with, u, v), at(with, u + across, v + down)) > 0;
+      }
+    EXPECT_GT(words, 2000);
+    EXPECT_LT(static_cast<double>(one_eye), 0.05 * static_cast<double>(words))
+        << "plates are clear: what is behind them differs";
+    EXPECT_EQ(unlike_views, 0);
+  }
+}
+
+TEST(Stereo, TheMouseIsWhereEachEyeHasIt) {
+  const auto expect = [](Stereo stereo, double x, double y, double u, double v) {
+    const Eigen::Vector2d there = inEyesPicture({x, y}, 640, 480, stereo);
+    EXPECT_EQ(there.x(), u);
+    EXPECT_EQ(there.y(), v);
+  };
+  expect(Stereo::side_by_side, 100, 50, 200, 50);
+  expect(Stereo::side_by_side, 420, 50, 200, 50);
+  expect(Stereo::top_bottom, 100, 50, 100, 100);
+  expect(Stereo::top_bottom, 100, 290, 100, 100);
+  for (const Stereo whole : {Stereo::none, Stereo::anaglyph, Stereo::headset})
+    expect(whole, 420, 290, 420, 290);
+}
 
 TEST(Stereo, AnAnaglyphHasTheLeftEyeInRedAndTheRightInCyan) {
   const Vec3 p_A(0, -0.05, 0);
