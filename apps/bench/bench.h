@@ -119,6 +119,15 @@ struct ObserverBenchOptions {
 /// behind it within 5 mm; the same without shadow and ring. One JSON object a line.
 void benchObserver(const ObserverBenchOptions& options);
 
+struct HudBenchOptions {
+  int sessions = 200;
+};
+
+/// Whether words cover what is worked with: recorded sessions of a needle, a palpation and a
+/// search, of both sides and both hands, seen through the station's camera in windows from 320x240
+/// to 3840x2160, with one eye, two and a headset. One JSON object a line. Simulated. Throws Error.
+void benchHud(const HudBenchOptions& options);
+
 struct SessionBenchOptions {
   int trials = 4;
   std::uint64_t seed = 1;

@@ -151,6 +151,16 @@ void addObserver(CLI::App& bench) {
   observer->callback([options] { bench::benchObserver(*options); });
 }
 
+void addHud(CLI::App& bench) {
+  CLI::App* hud = bench.add_subcommand(
+      "hud", "Whether words cover tip, entry or tool, over recorded sessions of both hands");
+  hud->footer("Example:\n  palpa bench hud > hud.jsonl\n  palpa bench hud --sessions 12");
+  const auto options = std::make_shared<bench::HudBenchOptions>();
+  hud->add_option("--sessions", options->sessions, "Sessions (default 200)")
+      ->check(inRange(1, 100'000));
+  hud->callback([options] { bench::benchHud(*options); });
+}
+
 void addSession(CLI::App& bench) {
   CLI::App* session = bench.add_subcommand(
       "session", "How many times real time a simulated session runs, how soon it starts, and why");
@@ -289,6 +299,7 @@ void addBench(CLI::App& program) {
   addRecordsBench(*bench);
   addRenderBench(*bench);
   addHeadsetBench(*bench);
+  addHud(*bench);
   addObserver(*bench);
   addSession(*bench);
   addStop(*bench);

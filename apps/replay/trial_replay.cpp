@@ -57,6 +57,7 @@ trial::TrialScene::Stage TrialReplay::stage(scene::SceneView& view) {
   s.more = [this](scene::SceneState& state) {
     add(state, at_s_);
     addStrip(state);
+    if (told_) told_(state);
   };
   return s;
 }

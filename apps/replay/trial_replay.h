@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/runtime/bus.h"
@@ -60,6 +61,8 @@ class TrialReplay {
 
   /// Draws the moment; `rate`: how it is played, in words.
   void show(double t_s, const std::string& rate);
+  /// Told of what is drawn, before it is, and may change it.
+  void beforeEach(std::function<void(scene::SceneState&)> told) { told_ = std::move(told); }
   /// Keys and mouse since the last frame of a window.
   const scene::ViewInput& input() const { return input_; }
 
@@ -85,6 +88,7 @@ class TrialReplay {
   std::string rate_;
   std::int64_t now_ns_ = 0;
   scene::ViewInput input_;
+  std::function<void(scene::SceneState&)> told_;
 };
 
 }  // namespace palpa::replay

@@ -223,6 +223,14 @@ ArGeometry SceneView::arGeometry() const {
           static_cast<double>(picture.height)};
 }
 
+std::vector<Rect> SceneView::wordPlates() const {
+  std::vector<Rect> plates = impl_->hud.plates();
+  if (!impl_->other_hud) return plates;
+  const std::vector<Rect> others = impl_->other_hud->plates();
+  plates.insert(plates.end(), others.begin(), others.end());
+  return plates;
+}
+
 void SceneView::resetNavigation() { impl_->ar.orbit().reset(); }
 
 namespace {

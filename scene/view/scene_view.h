@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "anatomy/patient.h"
 #include "scene/panels.h"
@@ -60,6 +61,9 @@ class SceneView {
   ViewInput poll();  ///< events of an interactive window; empty otherwise
 
   ArGeometry arGeometry() const;
+  /// What words cover of the last frame (before each eye of a headset: of both), pixels of the
+  /// window, origin bottom left.
+  std::vector<Rect> wordPlates() const;
   void resetNavigation();  ///< the virtual camera back to where it began
 
  private:

@@ -39,5 +39,22 @@ TEST(BenchObserver, ReadsHeightAndDepthFromPixels) {
   EXPECT_TRUE(value.contains({"depth_told", false}));
 }
 
+/// Words make way for what is worked with; and yet they are there. The smallest window comes first.
+TEST(BenchHud, CoversNeitherTipNorEntryNorTool) {
+  const Folder here;
+  const Outcome outcome =
+      palpa({"bench", "hud", "--sessions", test::fullCounts() ? "200" : "1"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::map<std::string, double> value;
+  for (const nlohmann::json& line : jsonLines(outcome)) {
+    value[line["metric"]] = line["value"];
+    EXPECT_EQ(line["params"]["frames"], test::fullCounts() ? 16'000 : 80);
+  }
+  for (const char* never : {"hud_over_tip", "hud_over_entry", "hud_over_tool", "hud_beyond_eye"})
+    EXPECT_EQ(value.at(never), 0) << never;
+  EXPECT_LE(value.at("hud_tool_covered_max"), 0.05);
+  EXPECT_GE(value.at("hud_words_shown"), test::fullCounts() ? 0.8 : 0.4);
+}
+
 }  // namespace
 }  // namespace palpa::cli_test

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/scene/offscreen.h"
 
 namespace palpa::scene {
@@ -29,6 +31,30 @@ class HudFrame : public testing::TestWithParam<std::pair<int, int>> {
 TEST_P(HudFrame, SameWordsSamePicture) {
   const Image first = frame();
   EXPECT_EQ(frame().pixels, first.pixels);
+}
+
+/// Who judges by `wordPlates` judges what is seen.
+TEST_P(HudFrame, PlatesAreWhereWordsChangeThePicture) {
+  state_.show_tool = false;
+  const Image with = frame();
+  const std::vector<Rect> plates = view_.wordPlates();
+  state_.hud = {};
+  const Image without = frame();
+  ASSERT_GE(plates.size(), 2u);
+  for (const Rect& plate : plates)
+    EXPECT_GT(blobOf(with,
+                     [&](int u, int v) {
+                       return plate.contains(u, height() - 1 - v) &&
+                              difference(at(with, u, v), at(without, u, v)) > 20;
+                     })
+                  .count,
+              30);
+  const Blob beside = blobOf(with, [&](int u, int v) {
+    return difference(at(with, u, v), at(without, u, v)) > 0 &&
+           std::none_of(plates.begin(), plates.end(),
+                        [&](const Rect& plate) { return plate.contains(u, height() - 1 - v); });
+  });
+  EXPECT_EQ(beside.count, 0);
 }
 
 TEST_P(HudFrame, ChangedReadingChangesTheLowerLeftCornerOnly) {

@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/bench.h"
@@ -14,13 +13,6 @@ namespace {
 constexpr int kEyeWidth = 1832, kEyeHeight = 1920;  // px, a common headset's
 constexpr double kRate_Hz = 72;
 constexpr int kWarm = 20;
-
-/// Mesa draws nothing from here on: its drivers take every call and leave it at that. Others know
-/// nothing of it. Before the first context.
-void leaveOutDrawing() {
-  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-  setenv("GALLIUM_NOOP", "1", 1);
-}
 
 }  // namespace
 

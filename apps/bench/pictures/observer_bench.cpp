@@ -9,11 +9,11 @@
 #include "anatomy/base/quantile.h"
 #include "anatomy/base/random.h"
 #include "anatomy/base/units.h"
-#include "anatomy/query/triangle_tree.h"
 #include "apps/bench/bench.h"
 #include "apps/bench/bench_patients.h"
 #include "apps/bench/pictures/observer.h"
 #include "apps/bench/pictures/session_frames.h"
+#include "apps/bench/pictures/skin_ray.h"
 #include "apps/bench/timing.h"
 #include "scene/actors/instrument.h"
 #include "scene/actors/tool_shadow.h"
@@ -40,7 +40,7 @@ class Poses {
   explicit Poses(const anatomy::Patient& patient)
       : entry_A_(patient.landmark(anatomy::landmark::kEntry)),
         vein_A_(patient.landmark(anatomy::landmark::kVeinTarget)),
-        skin_(skinOf(patient)) {}
+        skin_(patient) {}
 
   /// Before the puncture, or after it. Others than those that the observer was made with.
   Shown draw(int i, bool inside) const {
@@ -52,12 +52,12 @@ class Poses {
       way.normalize();
       const Vec3 high =
           entry_A_ + Vec3(random.uniform(-0.015, 0.015), -0.2, random.uniform(-0.015, 0.015));
-      const auto down = skinAlong(high, Vec3::UnitY(), 0.4);
+      const auto down = skin_.along(high, Vec3::UnitY(), 0.4);
       if (!down) continue;
       const Vec3 on_skin = high + *down * Vec3::UnitY();
       const double aim = inside ? random.uniform(0.003, kDeepest) : random.uniform(0.001, kHighest);
       const Vec3 tip = inside ? Vec3(on_skin + aim * way) : Vec3(on_skin - aim * Vec3::UnitY());
-      const auto entry = skinAlong(tip - needle_ * way, way, needle_);
+      const auto entry = skin_.along(tip - needle_ * way, way, needle_);
       if (entry.has_value() != inside) continue;
       Shown shown;
       shown.height = inside ? 0 : aim;
@@ -69,23 +69,6 @@ class Poses {
   }
 
  private:
-  static const anatomy::TriangleMesh& skinOf(const anatomy::Patient& patient) {
-    return std::find_if(patient.organs.begin(), patient.organs.end(),
-                        [](const auto& organ) { return organ.organ == Organ::skin; })
-        ->mesh;
-  }
-
-  /// How far along this way the skin begins; none within `length`.
-  std::optional<double> skinAlong(const Vec3& from_A, const Vec3& way, double length) const {
-    std::array<anatomy::TriangleTree::Crossing, 16> crossings;
-    bool lost = false;
-    const int count = skin_.cast(from_A, way, length, crossings.data(), 16, &lost);
-    std::optional<double> first;
-    for (int k = 0; k < count; ++k)
-      if (const double s = crossings[std::size_t(k)].s; !first || s < *first) first = s;
-    return first;
-  }
-
   /// Nobody tells anything of a needle along which he looks.
   static bool isSeenFromTheSide(const Shown& shown) {
     const Vec3 sight = (shown.X_CA * shown.X_AT.translation()).normalized();
@@ -102,7 +85,7 @@ class Poses {
 
   const double needle_ = scene::InstrumentSize().needle_length;
   Vec3 entry_A_, vein_A_;
-  anatomy::TriangleTree skin_;
+  SkinRay skin_;
 };
 
 /// One AR view alone.

@@ -3,11 +3,17 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 
 #include "apps/bench/bench_patients.h"
 
 namespace palpa::bench {
+
+void leaveOutDrawing() {
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  setenv("GALLIUM_NOOP", "1", 1);
+}
 
 std::size_t trianglesOf(const anatomy::Patient& patient) {
   std::size_t all = 0;

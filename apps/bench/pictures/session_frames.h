@@ -7,6 +7,10 @@
 
 namespace palpa::bench {
 
+/// Mesa draws nothing from here on: its drivers take every call and leave it at that. Others know
+/// nothing of it. Before the first context.
+void leaveOutDrawing();
+
 std::size_t trianglesOf(const anatomy::Patient& patient);
 
 /// A session's frames: picture, translucent skin, needle, arrows, words.
