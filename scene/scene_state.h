@@ -29,9 +29,9 @@ struct Pinhole {
 struct CameraLook {
   double blur_px = 0;  ///< sigma of a Gaussian, pixels of the picture
   std::array<double, 3> black{0, 0, 0}, white{1, 1, 1};  ///< of black and of white things
-  double grain_black = 0, grain_white = 0;  ///< standard deviation of a pixel at these levels
-  double grain_neighbours = 0;  ///< correlation of a pixel's grain with the next one's, to 0.5
-  double grain_colour = 1;      ///< 0: alike in all channels; 1: each has its own
+  std::array<double, 5> grain{};  ///< standard deviation of a pixel, evenly from black to white
+  double grain_neighbours = 0;    ///< correlation of a pixel's grain with the next one's, to 0.5
+  double grain_colour = 1;        ///< 0: alike in all channels; 1: each has its own
 };
 
 /// A camera of one eye.

@@ -21,8 +21,8 @@ void LookWatch::take(const std::optional<ar::PictureLook>& measured) {
     look_.black[k] = toward(look_.black[k], now.black[k], share);
     look_.white[k] = toward(look_.white[k], now.white[k], share);
   }
-  look_.grain_black = toward(look_.grain_black, now.grain_black, share);
-  look_.grain_white = toward(look_.grain_white, now.grain_white, share);
+  for (std::size_t k = 0; k < now.grain.size(); ++k)
+    look_.grain[k] = toward(look_.grain[k], now.grain[k], share);
   look_.grain_neighbours = toward(look_.grain_neighbours, now.grain_neighbours, share);
   look_.grain_colour = toward(look_.grain_colour, now.grain_colour, share);
   known_ = true;

@@ -1,10 +1,13 @@
 #include "ar/cameras/picture_grain.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "anatomy/base/quantile.h"
@@ -12,9 +15,10 @@
 namespace palpa::ar {
 namespace {
 
-constexpr int kBlock = 8;      // px
-constexpr double kCalm = 2.5;  // gray levels a pixel
-constexpr int kBins = 8;       // of brightness
+constexpr int kBlock = 8;         // px
+constexpr int kApartBlocks = 13;  // px, of blocks: those of a JPEG have nothing between them
+constexpr double kCalm = 2.5;     // gray levels a pixel
+constexpr int kBins = 8;          // of brightness
 constexpr std::size_t kFewestBlocks = 40;
 
 /// What one block says of the grain.
@@ -91,15 +95,33 @@ cv::Mat1b calmPlaces(const cv::Mat& gray) {
 std::vector<Block> evenBlocks(const cv::Mat& picture, const cv::Mat& gray) {
   const cv::Mat1b calm = calmPlaces(gray);
   std::vector<Block> blocks;
-  for (int top = 0; top + kBlock <= picture.rows; top += 2 * kBlock)
-    for (int left = 0; left + kBlock <= picture.cols; left += 2 * kBlock)
+  for (int top = 0; top + kBlock <= picture.rows; top += kApartBlocks)
+    for (int left = 0; left + kBlock <= picture.cols; left += kApartBlocks)
       if (cv::countNonZero(calm(cv::Rect(left, top, kBlock, kBlock))) == kBlock * kBlock)
         if (const auto block = blockAt(picture, top, left)) blocks.push_back(*block);
   return blocks;
 }
 
-/// Variance as a line over brightness: medians of bins, each counting as often as it has blocks.
-Grain grainLine(const std::vector<Block>& blocks) {
+/// Without the highest tenth, which may have a shape in it, and the lowest.
+double middleMean(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto cut = static_cast<std::ptrdiff_t>(values.size() / 10);
+  const double sum = std::accumulate(values.begin() + cut, values.end() - cut, 0.0);
+  return sum / static_cast<double>(values.size() - 2 * static_cast<std::size_t>(cut));
+}
+
+/// Which knot is below this level, and how far on the way to the next it is.
+std::pair<std::size_t, double> knotBelow(double level) {
+  const double at = std::clamp(level / 255, 0.0, 1.0) * (Grain::kKnots - 1);
+  const double below = std::min(std::floor(at), Grain::kKnots - 2.0);
+  return {static_cast<std::size_t>(below), at - below};
+}
+
+/// Variance over brightness, by least squares with the sum of its squared bends: means of bins,
+/// each counting as often as it has blocks, to some number.
+std::array<double, Grain::kKnots> varianceOver(const std::vector<Block>& blocks) {
+  constexpr double kEnough = 30, kStiff = 0.3, kLevel = 0.02;
+  constexpr std::size_t kFew = 8;
   std::array<std::vector<double>, kBins> level, variance;
   for (const Block& block : blocks) {
     const auto bin =
@@ -107,21 +129,29 @@ Grain grainLine(const std::vector<Block>& blocks) {
     level[bin].push_back(block.level);
     variance[bin].push_back(block.variance);
   }
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  constexpr Eigen::Index n = Grain::kKnots;
+  Eigen::Matrix<double, n, n> A = Eigen::Matrix<double, n, n>::Zero();
+  Eigen::Matrix<double, n, 1> y = Eigen::Matrix<double, n, 1>::Zero();
   for (std::size_t bin = 0; bin < kBins; ++bin) {
-    if (level[bin].size() < 8) continue;
-    const double weight = static_cast<double>(level[bin].size());
-    const double at = quantile(level[bin], 0.5), is = quantile(variance[bin], 0.5);
-    n += weight;
-    x += weight * at;
-    y += weight * is;
-    xx += weight * at * at;
-    xy += weight * at * is;
+    if (level[bin].size() < kFew) continue;
+    const auto [below, part] = knotBelow(quantile(level[bin], 0.5));
+    const double weight = std::min(static_cast<double>(level[bin].size()), kEnough);
+    Eigen::Matrix<double, n, 1> row = Eigen::Matrix<double, n, 1>::Zero();
+    row[static_cast<Eigen::Index>(below)] = 1 - part;
+    row[static_cast<Eigen::Index>(below) + 1] = part;
+    A += weight * row * row.transpose();
+    y += weight * middleMean(variance[bin]) * row;
   }
-  if (n == 0) return {};
-  const double spread = n * xx - x * x;
-  const double slope = spread > 100 * n * n ? (n * xy - x * y) / spread : 0;
-  return {(y - slope * x) / n, slope};
+  for (Eigen::Index k = 0; k + 1 < n; ++k) {  // straight and level where nothing is known
+    A.block<2, 2>(k, k) += kLevel * Eigen::Matrix2d{{1, -1}, {-1, 1}};
+    if (k + 2 >= n) continue;
+    const Eigen::Vector3d bend(1, -2, 1);
+    A.block<3, 3>(k, k) += kStiff * bend * bend.transpose();
+  }
+  const Eigen::Matrix<double, n, 1> fitted = A.ldlt().solve(y);
+  std::array<double, Grain::kKnots> all;
+  for (Eigen::Index k = 0; k < n; ++k) all[static_cast<std::size_t>(k)] = std::max(fitted[k], 0.0);
+  return all;
 }
 
 /// A plane takes with it a part q of the variance, the more the more alike neighbours are (as each
@@ -152,16 +182,17 @@ double shareOf(const std::vector<Block>& blocks, double Block::*of, double times
 }  // namespace
 
 double Grain::sigmaAt(double level) const {
-  return std::sqrt(std::max(at_zero + slope * level, 0.0));
+  const auto [below, part] = knotBelow(level);
+  return std::sqrt((1 - part) * variance[below] + part * variance[below + 1]);
 }
 
 std::optional<Grain> grainOf(const cv::Mat& picture, const cv::Mat& gray) {
   const std::vector<Block> blocks = evenBlocks(picture, gray);
   if (blocks.size() < kFewestBlocks) return std::nullopt;
-  Grain grain = grainLine(blocks);
+  Grain grain;
+  grain.variance = varianceOver(blocks);
   const Likeness likeness = likenessOf(shareOf(blocks, &Block::neighbours, 1));
-  grain.at_zero /= 1 - likeness.taken;
-  grain.slope /= 1 - likeness.taken;
+  for (double& variance : grain.variance) variance /= 1 - likeness.taken;
   grain.neighbours = likeness.rho;
   grain.colour = std::clamp(shareOf(blocks, &Block::unlike, 2), 0.0, 1.0);
   return grain;

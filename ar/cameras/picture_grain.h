@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -7,9 +8,11 @@ namespace palpa::ar {
 
 /// The grain of a picture (picture_look.h); of 255.
 struct Grain {
-  double at_zero = 0, slope = 0;  ///< its variance is a line over brightness
-  double neighbours = 0;          ///< correlation of a pixel with the next
-  double colour = 0;              ///< 0: alike in all channels; 1: each its own
+  static constexpr int kKnots = 6;  ///< of brightness, evenly from 0 to 255
+  /// Its variance at the knots; straight between them.
+  std::array<double, kKnots> variance{};
+  double neighbours = 0;  ///< correlation of a pixel with the next
+  double colour = 0;      ///< 0: alike in all channels; 1: each its own
 
   double sigmaAt(double level) const;
 };

@@ -36,8 +36,10 @@ std::optional<PictureLook> lookOf(const cv::Mat& picture, const cv::Rect& where)
     bright += white / 3;
     dark += black / 3;
   }
-  look.grain_white = grain->sigmaAt(bright) / 255;
-  look.grain_black = grain->sigmaAt(dark) / 255;
+  for (std::size_t k = 0; k < look.grain.size(); ++k) {
+    const double way = static_cast<double>(k) / (look.grain.size() - 1);
+    look.grain[k] = grain->sigmaAt(dark + way * (bright - dark)) / 255;
+  }
   look.grain_neighbours = grain->neighbours;
   look.grain_colour = grain->colour;
   return look;

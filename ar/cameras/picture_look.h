@@ -9,11 +9,11 @@ namespace palpa::ar {
 /// What a camera has made of what it saw. Levels and grain in parts of the brightest that the
 /// picture can hold; channels red, green, blue.
 struct PictureLook {
-  double blur_px = 0;                       ///< sigma of a Gaussian, pixel and lens together
-  std::array<double, 3> black{}, white{};   ///< what is on the two sides of the clearest edges
-  double grain_black = 0, grain_white = 0;  ///< standard deviation of a pixel at these levels
-  double grain_neighbours = 0;  ///< correlation of a pixel's grain with that of the next
-  double grain_colour = 0;      ///< 0: alike in all channels; 1: each has its own
+  double blur_px = 0;                      ///< sigma of a Gaussian, pixel and lens together
+  std::array<double, 3> black{}, white{};  ///< what is on the two sides of the clearest edges
+  std::array<double, 5> grain{};           ///< standard deviation of a pixel, from black to white
+  double grain_neighbours = 0;             ///< correlation of a pixel's grain with that of the next
+  double grain_colour = 0;                 ///< 0: alike in all channels; 1: each has its own
 };
 
 /// From one picture alone, 8-bit gray or BGR; nothing where it does not show enough clear edges and
@@ -25,8 +25,9 @@ struct PictureLook {
 /// by Gauss-Newton over low, high, m, sigma and the edge's direction; the median of those that fit
 /// and are high: black print on white paper, and not a shadow or something soft.
 ///
-/// Grain: in blocks of 8 x 8 without structure, what remains beside a plane; its variance is a line
-/// over brightness (Healey, Kondepudy 1994: a part of the reading, a part of the light).
+/// Grain: in blocks of 8 x 8 without structure, what remains beside a plane; its variance over
+/// brightness. By a sensor alone that is a line (Healey, Kondepudy 1994: a part of the reading, a
+/// part of the light); what is kept as JPEG has less in the dark, and none where it is saturated.
 std::optional<PictureLook> lookOf(const cv::Mat& picture, const cv::Rect& where = {});
 
 }  // namespace palpa::ar

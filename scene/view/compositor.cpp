@@ -268,8 +268,9 @@ void Compositor::Pass::compose(vtkOpenGLRenderWindow& window, vtkTextureObject& 
     program.SetUniform2f("grain_place", grain_place_.data());
     program.SetUniform3f("black", look_.black.data());
     program.SetUniform3f("white", look_.white.data());
-    program.SetUniformf("grain_black", static_cast<float>(look_.grain_black));
-    program.SetUniformf("grain_white", static_cast<float>(look_.grain_white));
+    std::array<float, 5> strength{};
+    std::copy(look_.grain.begin(), look_.grain.end(), strength.begin());
+    program.SetUniform1fv("grain_strength", 5, strength.data());
     program.SetUniformf("grain_colour", static_cast<float>(look_.grain_colour));
     program.SetUniformf("grain_unit", static_cast<float>(255 / kTileUnit));
   }

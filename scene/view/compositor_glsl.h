@@ -103,7 +103,7 @@ inline constexpr const char* kOver = R"(
 uniform sampler2D picture, grain;
 uniform vec2 grain_scale, grain_place;
 uniform vec3 black, white;
-uniform float grain_black, grain_white, grain_colour, grain_unit;
+uniform float grain_strength[5], grain_colour, grain_unit;
 uniform int channels;
 
 void main() {
@@ -119,7 +119,10 @@ void main() {
   if (o.a > 0.0) {
     vec3 drawn_here = black * o.a + (white - black) * o.rgb;
     float bright = clamp(dot(o.rgb, vec3(1.0 / 3.0)) / o.a, 0.0, 1.0);
-    float strength = mix(grain_black, grain_white, bright) * sqrt(o.a * (2.0 - o.a));
+    float level = 4.0 * bright;
+    int below = min(int(level), 3);
+    float strength = mix(grain_strength[below], grain_strength[below + 1], level - float(below)) *
+                     sqrt(o.a * (2.0 - o.a));
     vec3 noise = textureLod(grain, at * grain_scale + grain_place, 0.0).rgb - 128.0 / 255.0;
     noise = mix(noise.rrr, noise, grain_colour) * grain_unit;
     pixel = drawn_here + strength * noise + (1.0 - o.a) * pixel;

@@ -82,8 +82,8 @@ TEST_P(Grains, AreFoundAtEveryBrightness) {
   lens.ink = {50, 50, 50};
   const auto look = lookOf(taken(lens));
   ASSERT_TRUE(look);
-  EXPECT_NEAR(255 * look->grain_white, GetParam(), 0.07 * GetParam());
-  EXPECT_NEAR(255 * look->grain_black, GetParam(), 0.07 * GetParam());
+  EXPECT_NEAR(255 * look->grain.back(), GetParam(), 0.07 * GetParam());
+  EXPECT_NEAR(255 * look->grain.front(), GetParam(), 0.07 * GetParam());
   EXPECT_NEAR(look->grain_neighbours, 0, 0.05);
   EXPECT_NEAR(look->grain_colour, 1, 0.1);
 }
@@ -95,8 +95,8 @@ TEST(PictureLook, GrainThatGrowsWithTheLight) {
   lens.paper = {200, 200, 200};
   const auto look = lookOf(taken(lens));
   ASSERT_TRUE(look);
-  EXPECT_NEAR(255 * look->grain_white, std::sqrt(1 + 0.2 * 200), 0.5);
-  EXPECT_NEAR(255 * look->grain_black, std::sqrt(1 + 0.2 * 30), 0.3);
+  EXPECT_NEAR(255 * look->grain.back(), std::sqrt(1 + 0.2 * 200), 0.5);
+  EXPECT_NEAR(255 * look->grain.front(), std::sqrt(1 + 0.2 * 30), 0.3);
 }
 
 TEST(PictureLook, GrainAlikeInAllChannels) {

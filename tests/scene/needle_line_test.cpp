@@ -63,8 +63,7 @@ const CameraLook& softCamera() {
   static const CameraLook look{.blur_px = 0.8,
                                .black = {0.08, 0.08, 0.08},
                                .white = {0.9, 0.9, 0.9},
-                               .grain_black = 0.012,
-                               .grain_white = 0.012};
+                               .grain = {0.012, 0.012, 0.012, 0.012, 0.012}};
   return look;
 }
 

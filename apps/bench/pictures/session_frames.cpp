@@ -25,8 +25,7 @@ scene::CameraLook SessionFrames::usualLook() {
   return {.blur_px = 0.7,
           .black = {0.1, 0.1, 0.1},
           .white = {0.9, 0.9, 0.9},
-          .grain_black = 0.01,
-          .grain_white = 0.01};
+          .grain = {0.01, 0.01, 0.01, 0.01, 0.01}};
 }
 
 SessionFrames::SessionFrames(const anatomy::Patient& patient)
