@@ -39,6 +39,7 @@ DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& pa
   layout.force_colours = options.force_colours;
   layout.stereo = options.stereo;
   layout.inset = options.inset;
+  layout.framed = options.camera.empty();  // recorded pictures are there to see how all of it fits
   DesktopStage stage;
   stage.context = scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
                                        layout.width, layout.height, "Palpa");

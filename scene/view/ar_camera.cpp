@@ -48,6 +48,10 @@ void aim(vtkCamera& target, const Pinhole& camera, const Pose& X_CA, const Depth
   target.UseExplicitProjectionTransformMatrixOn();
 }
 
+Pinhole partOf(const Pinhole& camera, const Rect& part) {
+  return {part.width, part.height, camera.fx, camera.fy, camera.cx - part.x, camera.cy - part.y};
+}
+
 Pinhole scaled(const Pinhole& camera, int width, int height) {
   const double sx = static_cast<double>(width) / camera.width;
   const double sy = static_cast<double>(height) / camera.height;

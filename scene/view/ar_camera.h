@@ -38,4 +38,7 @@ void aim(vtkCamera& target, const Pinhole& camera, const Pose& X_CA, const Depth
 /// The same camera for a picture stretched to width x height pixels.
 Pinhole scaled(const Pinhole& camera, int width, int height);
 
+/// The same camera for a part of its picture.
+Pinhole partOf(const Pinhole& camera, const Rect& part);
+
 }  // namespace palpa::scene

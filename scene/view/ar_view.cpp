@@ -37,6 +37,23 @@ OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
   return {region.focus_A, azimuth, kElevation, kDistance};
 }
 
+/// Throws Error when size and pixels disagree.
+Image partOf(const Image& image, const Rect& part) {
+  checkPicture(image);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::size_t row = channels * static_cast<std::size_t>(image.width),
+                    length = channels * static_cast<std::size_t>(part.width);
+  Image result{part.width, part.height, image.channels, {}};
+  result.pixels.reserve(length * static_cast<std::size_t>(part.height));
+  for (int v = part.y; v < part.top(); ++v) {
+    const auto from = image.pixels.begin() +
+                      static_cast<std::ptrdiff_t>(row * static_cast<std::size_t>(v) +
+                                                  channels * static_cast<std::size_t>(part.x));
+    result.pixels.insert(result.pixels.end(), from, from + static_cast<std::ptrdiff_t>(length));
+  }
+  return result;
+}
+
 }  // namespace
 
 ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
@@ -46,6 +63,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       stereo_(layout.stereo),
       see_through_(layout.see_through),
       shows_inside_(layout.inside),
+      framed_(layout.framed),
       orbit_(defaultView(patient, region)),
       table_(*renderer_, patient),
       glass_((window.AddRenderer(renderer_), window), *renderer_),
@@ -98,7 +116,7 @@ void ArView::place(const Rect& panel, int window_width, int window_height) {
 void ArView::update(const SceneState& state) {
   chooseCamera(state);
   applyCameras(state);
-  compositor_.show(state.picture, state.look);
+  compositor_.show(virtual_ ? state.picture : shown_picture_, state.look);
   // Over a picture, and before the world, what is not drawn is black of alpha 0.
   const bool clear = state.picture || see_through_;
   const Rgb& behind = clear ? colour::kClear : colour::kBehindBottom;
@@ -117,10 +135,25 @@ void ArView::chooseCamera(const SceneState& state) {
     X_CA_ = orbit_.X_CA();
     return;
   }
-  const Pinhole& camera = state.camera;
-  picture_ = letterbox(panel_, camera.width, camera.height);
-  pinhole_ = scaled(camera, picture_.width, picture_.height);
   if (state.registered) X_CA_ = state.X_CA;
+  choosePart(state);
+  picture_ = letterbox(panel_, camera_.width, camera_.height);
+  pinhole_ = scaled(camera_, picture_.width, picture_.height);
+}
+
+/// Of the picture, and of its camera.
+void ArView::choosePart(const SceneState& state) {
+  shown_picture_ = state.picture;
+  camera_ = state.camera;
+  const bool of_camera = !state.picture || (state.picture->width == state.camera.width &&
+                                            state.picture->height == state.camera.height);
+  if (!framed_ || !state.registered || !of_camera) return;
+  part_ = partWithWork(state.camera, X_CA_ * region_.work_centre_A, region_.work_radius,
+                       double(panel_.width) / panel_.height, part_);
+  camera_ = partOf(state.camera, part_);
+  if (!state.picture) return;
+  part_picture_ = partOf(*state.picture, part_);
+  shown_picture_ = &part_picture_;
 }
 
 /// One camera, or two that belong to it.
@@ -129,7 +162,7 @@ void ArView::applyCameras(const SceneState& state) {
   real_things_ = !state.occluders.empty();
   glass_.look(X_CA_.inverse().translation());
   if (stereo_ == Stereo::none) return lookThrough({pinhole_, X_CA_}, picture_, *renderer_);
-  const Pinhole whole = virtual_ ? pinhole_ : state.camera;
+  const Pinhole whole = virtual_ ? pinhole_ : camera_;
   eyes_ = state.eyes ? *state.eyes
                      : stereoPair(whole, X_CA_, kEyesApart,
                                   std::max((X_CA_ * region_.focus_A).z(), kNearestFocus));
@@ -207,7 +240,7 @@ double ArView::lineUnit_px() const { return std::max(window_height_ / 720.0, 1.0
 void ArView::showNeedleLine(const SceneState& state, bool visible) {
   if (!visible || !state.show_tool || state.tool != Tool::needle) return needle_line_.hide();
   const double unit_px = lineUnit_px();
-  const double scale = state.picture ? double(picture_.width) / state.picture->width : 0;
+  const double scale = state.picture ? double(picture_.width) / camera_.width : 0;
   needle_line_.update(state, shadows_.entry_A(), X_CA_, pinhole_.fx, unit_px,
                       scale * state.look.blur_px, shows_inside_ && state.skin != SkinStyle::solid);
 }

@@ -62,6 +62,7 @@ class ArView {
 
  private:
   void chooseCamera(const SceneState& state);
+  void choosePart(const SceneState& state);
   void applyCameras(const SceneState& state);
   void lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind);
   void setUpRenderers();
@@ -78,7 +79,11 @@ class ArView {
   Rect panel_, picture_;
   int window_width_ = 1, window_height_ = 1;
   Stereo stereo_;
-  bool see_through_, shows_inside_;
+  bool see_through_, shows_inside_, framed_;
+  Rect part_;       ///< of the camera's picture, from its top left
+  Pinhole camera_;  ///< of that part
+  Image part_picture_;
+  const Image* shown_picture_ = nullptr;
   std::array<EyeCamera, 2> eyes_;
   std::array<Rect, 2> eye_panels_;
   Vec3 tip_A_ = Vec3::Zero();

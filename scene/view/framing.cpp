@@ -1,6 +1,7 @@
 #include "scene/view/framing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "anatomy/parametric/phantoms.h"
@@ -71,9 +72,42 @@ Region regionOf(const anatomy::Patient& patient) {
     region.width = std::clamp(1.15 * whole.sizes().x(), 0.05, 0.60);
     region.height = 1.25 * std::max(whole.sizes().y(), whole.sizes().z());
   }
+  region.work_centre_A = region.focus_A;
   const auto near_edge = find(patient, anatomy::landmark::kNearEdge);
   region.on_table = entry && near_edge && near_edge->z() < entry->z();
+  if (region.on_table) {
+    region.work_centre_A = whole.center();
+    region.work_radius = std::clamp(0.6 * whole.diagonal().norm(), 0.05, 0.30);
+  }
   return region;
+}
+
+Rect partWithWork(const Pinhole& camera, const Vec3& centre_C, double radius, double aspect,
+                  const Rect& before) {
+  constexpr double kFilled = 0.8;             // of the smaller side
+  constexpr double kLeastWidth = 0.5;         // of the picture's
+  constexpr double kAway = 0.10, kAs = 0.15;  // of the part's width: as good as before
+  const Rect whole{0, 0, camera.width, camera.height};
+  if (centre_C.z() <= radius) return whole;
+  const double u = camera.fx * centre_C.x() / centre_C.z() + camera.cx,
+               v = camera.fy * centre_C.y() / centre_C.z() + camera.cy,
+               across = 2 * camera.fx * radius / centre_C.z();
+  const double most = std::min<double>(camera.width, aspect * camera.height);
+  const double wanted = across / kFilled * std::max(aspect, 1.0);
+  const double width = std::clamp(wanted, kLeastWidth * camera.width, most);
+  const double height = width / aspect;
+  const auto start = [](double middle, double length, int room) {
+    return static_cast<int>(std::lround(std::clamp(middle - 0.5 * length, 0.0, room - length)));
+  };
+  const Rect part{start(u, width, camera.width), start(v, height, camera.height),
+                  static_cast<int>(width), static_cast<int>(height)};
+  if (!part.contains(u, v) || width < kFilled * across) return whole;
+  const bool alike = std::abs(part.width - before.width) < kAs * width &&
+                     std::abs(part.x - before.x) < kAway * width &&
+                     std::abs(part.y - before.y) < kAway * width &&
+                     before.right() <= camera.width && before.top() <= camera.height &&
+                     std::abs(before.width - aspect * before.height) < 2 * aspect + 2;
+  return alike ? before : part;
 }
 
 Aspect aspectOf(Plane plane, anatomy::Side side) {

@@ -37,6 +37,8 @@ struct ViewLayout {
   /// What is not drawn is black and clear (alpha 0): for displays that one looks through
   bool see_through = false;
   bool inside = true;  ///< what lies under the skin is drawn
+  /// Of the camera's picture the part where the work is, as large as it goes; else all of it
+  bool framed = false;
 };
 
 /// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left:

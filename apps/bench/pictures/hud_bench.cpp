@@ -135,6 +135,7 @@ class Watch {
     scene::ViewLayout layout{window.width, window.height, scene::FixedViews::three, false};
     if (window.stereo == scene::Stereo::headset) layout.fixed_views = scene::FixedViews::none;
     layout.stereo = window.stereo;
+    layout.framed = window.stereo != scene::Stereo::headset;
     return layout;
   }
 
