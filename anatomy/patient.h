@@ -78,6 +78,9 @@ struct Patient {
   std::map<std::string, Vec3> landmarks;  ///< p_A
   std::string licence = "CC0-1.0";        ///< of the whole
   std::string source{};
+  /// What a person sees in the skin's place in the large view, in A: only seen, on no account felt
+  /// or judged, and in no patient's file
+  std::optional<OrganSurface> seen_as{};
 
   const Vec3& landmark(const std::string& landmark_name) const;  ///< throws Error when absent
   const OrganSurface& organ(Organ kind) const;  ///< the first of its kind; throws Error

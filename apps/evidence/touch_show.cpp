@@ -121,7 +121,8 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
     trial_.X_AD = anatomy::X_AP() * unpack(config().X_DP).inverse();
     trial_.rules = task_palpation::scoringOf(json).rules;
     trial_.tip_radius = config().touch.tip_radius;
-    shown_ = anatomy::phantomBlock(task_palpation::sizeOf(json), "phantom", config().top);
+    shown_ = task_palpation::shownPhantom(task_palpation::sizeOf(json), "phantom",
+                                          trial_.rules.area, task_palpation::seenAs(json));
     const std::optional<haptics::PairConfig>& pair = reader_.info().pair_config;
     if (pair) trial_.X_AD2 = anatomy::X_AP() * unpack(pair->tools[1].X_DP).inverse();
     trial_.estimated = pair && pair->estimated;

@@ -11,6 +11,7 @@
 #include "apps/session/mouse_hands.h"
 #include "apps/session/output_folder.h"
 #include "apps/station/assets.h"
+#include "apps/task_palpation/palpation_place.h"
 #include "apps/task_palpation/palpation_scene.h"
 #include "apps/task_palpation/palpation_task.h"
 #include "apps/training/trial_words.h"
@@ -48,7 +49,8 @@ PalpationWorld::PalpationWorld(const SessionOptions& options)
       task(task_palpation::readPalpation(options.task.empty()
                                              ? station::assetFile("tasks/palpation_breast.json")
                                              : std::filesystem::path(options.task))),
-      phantom(anatomy::phantomBlock(task.size, task.title, task.scoring.rules.area.top)),
+      phantom(task_palpation::shownPhantom(task.size, task.title, task.scoring.rules.area,
+                                           task.seen_as)),
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
   task.library = libraryOn(options, station, std::move(task.library));
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)

@@ -197,6 +197,7 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   settings.id = file.text("id");
   settings.title = file.text("title");
   settings.size = sizeOf(file);
+  settings.seen_as = seenAs(file);
   settings.library = station::readLumps(path.parent_path() / file.text("lumps"));
   settings.scoring = scoringOf(file);
   if (!file.has("cases/lumps") || !file.has("cases/kinds"))

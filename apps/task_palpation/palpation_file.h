@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "anatomy/base/random.h"
-#include "apps/assess/palpation/palpation_assessment.h"
+#include "anatomy/parametric/body_part.h"
+#include "apps//assess/palpation/palpation_assessment.h"
 #include "apps/station/material_files.h"
 #include "apps/station/task_sections.h"
 
@@ -53,6 +54,7 @@ struct PalpationSettings {
   std::string id, title;
   /// M, of the phantom: across, away from the trainee, high; its top: scoring.rules.area.top
   Vec3 size = Vec3(0.1, 0.1, 0.05);
+  std::optional<anatomy::BodyPart> seen_as;  ///< in the large view
   station::LumpLibrary library;
   CaseRules cases;
   Scoring scoring;

@@ -5,6 +5,7 @@
 
 #include "anatomy/base/pinned_math.h"
 #include "anatomy/base/units.h"
+#include "anatomy/parametric/phantoms.h"
 
 namespace palpa::task_palpation {
 namespace {
@@ -96,6 +97,25 @@ assess::SearchArea areaOf(const JsonFile& task) {
                                          "half_away_mm");
   }
   return area;
+}
+
+std::optional<anatomy::BodyPart> seenAs(const JsonFile& task) {
+  if (!task.has("phantom/seen_as")) return std::nullopt;
+  const std::string word = task.text("phantom/seen_as");
+  const auto part = anatomy::bodyPartNamed(word);
+  if (!part)
+    task.refuse("phantom/seen_as",
+                "is \"" + word + "\"; it may be breast, abdomen, prostate or neck");
+  return part;
+}
+
+anatomy::Patient shownPhantom(const Vec3& size, const std::string& title,
+                              const assess::SearchArea& area,
+                              const std::optional<anatomy::BodyPart>& seen_as) {
+  anatomy::Patient phantom = anatomy::phantomBlock(size, title, area.top);
+  if (seen_as)
+    phantom.seen_as = anatomy::bodyPart(*seen_as, area.top, {area.half_x, area.half_y}, size.z());
+  return phantom;
 }
 
 void requireTouchable(const JsonFile& task, const assess::SearchArea& area, double tip_radius) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "anatomy/base/json_file.h"
+#include "anatomy/parametric/body_part.h"
+#include "anatomy/patient.h"
 #include "apps/assess/palpation/search_area.h"
 
 /// Where a palpation takes place, as its task's file says it: the phantom's size and the shape of
@@ -22,6 +24,15 @@ TopShape topOf(const JsonFile& task);
 /// "area": half the sides of a rectangle, and in it an outline, "outline_mm": [[x, y], ...]; with
 /// the top it lies on. Throws UsageError naming the field.
 assess::SearchArea areaOf(const JsonFile& task);
+
+/// "phantom/seen_as": the part of a body that the block stands for; none: the block itself. Throws
+/// UsageError naming the field.
+std::optional<anatomy::BodyPart> seenAs(const JsonFile& task);
+
+/// The phantom as it is shown: a block, and in the large view that part.
+anatomy::Patient shownPhantom(const Vec3& size, const std::string& title,
+                              const assess::SearchArea& area,
+                              const std::optional<anatomy::BodyPart>& seen_as);
 
 /// That a tip of this radius, m, is led by the shape: it never meets two places at once, and no
 /// place that is searched is steeper than a hand presses along its normal. Throws UsageError.

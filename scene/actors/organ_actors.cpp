@@ -26,6 +26,7 @@ namespace palpa::scene {
 namespace {
 
 constexpr double kSilicone = 0.5;  // opacity of a block, whose shape is to be seen, too
+constexpr double kSeenAs = 0.72;   // of a part of a body in its place, lest the block shine through
 
 double translucentOpacity(Organ organ) {
   if (organ == Organ::skin) return 0.28;
@@ -92,6 +93,13 @@ vtkSmartPointer<vtkActor> innerSideOf(const anatomy::OrganSurface& organ, vtkPol
 
 }  // namespace
 
+const anatomy::OrganSurface* seenSkin(const anatomy::Patient& patient) {
+  if (patient.seen_as) return &*patient.seen_as;
+  for (const anatomy::OrganSurface& organ : patient.organs)
+    if (organ.organ == Organ::skin && !organ.mesh.triangles.empty()) return &organ;
+  return nullptr;
+}
+
 bool coversOrgans(Organ organ) { return organ == Organ::skin || organ == Organ::muscle; }
 
 vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
@@ -124,16 +132,11 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
 
 OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass)
     : renderer_(renderer), glass_(glass) {
-  for (const anatomy::OrganSurface& organ : patient.organs) {
-    const vtkSmartPointer<vtkPolyData> surface = polyDataOf(organ.mesh);
-    if (!skin_ && organ.organ == Organ::skin) skin_ = surface;
-    OrganPart part{actorOf(organ, surface), surface, organ.organ, false};
-    // The far side of a translucent surface would blend a second time.
-    if (coversOrgans(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
-    renderer.AddActor(part.actor);
-    parts_.push_back(std::move(part));
-  }
-  if (glass_ && patient.organs.size() == 1 && skin_) {
+  seen_as_ = glass_ && patient.seen_as;
+  for (const anatomy::OrganSurface& organ : patient.organs)
+    if (!seen_as_ || organ.organ != Organ::skin) add(organ);
+  if (seen_as_) add(*patient.seen_as);
+  if (glass_ && !seen_as_ && patient.organs.size() == 1 && skin_) {
     inner_side_ = innerSideOf(patient.organs.front(), skin_);
     renderer.AddActor(inner_side_);
   }
@@ -141,6 +144,16 @@ OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient,
 }
 
 OrganActors::~OrganActors() = default;
+
+void OrganActors::add(const anatomy::OrganSurface& organ) {
+  const vtkSmartPointer<vtkPolyData> surface = polyDataOf(organ.mesh);
+  if (!skin_ && organ.organ == Organ::skin) skin_ = surface;
+  OrganPart part{actorOf(organ, surface), surface, organ.organ, false};
+  // The far side of a translucent surface would blend a second time.
+  if (coversOrgans(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
+  renderer_.AddActor(part.actor);
+  parts_.push_back(std::move(part));
+}
 
 void OrganActors::setStyle(SkinStyle style) {
   if (style == style_) return;
@@ -193,6 +206,7 @@ void OrganActors::apply() {
     part.actor->SetVisibility(visible_ && !hidden);
     double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;
     if (inner_side_ && walls_) opacity = std::max(opacity, kSilicone);
+    if (seen_as_ && part.organ == Organ::skin) opacity = std::max(opacity, kSeenAs);
     part.actor->GetProperty()->SetOpacity(opacity);
     moveTo(opacity < 1, part);
   }

@@ -23,13 +23,17 @@ namespace palpa::scene {
 /// With normals and texture coordinates where the mesh has them.
 vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh);
 
+/// The skin that the large view shows; null: it has none.
+const anatomy::OrganSurface* seenSkin(const anatomy::Patient& patient);
+
 /// Lies over the organs and hides them: skin, muscle.
 bool coversOrgans(Organ organ);
 
 /// The patient's surfaces as actors: organs opaque, and what covers them (skin, muscle) in the
 /// chosen style. A surface with a picture shows that, multiplied by its colour. What is translucent
 /// goes into `glass`, where there is one; without, VTK's order-independent blending draws it, which
-/// is right for a single layer.
+/// is right for a single layer. With `glass` a patient is seen as what he stands for
+/// (`Patient::seen_as`).
 class OrganActors {
  public:
   OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass = nullptr);
@@ -43,7 +47,7 @@ class OrganActors {
   void setWalls(bool shown);
   /// Where the body is that was made in A: a thing that is held moves. Only what is not translucent
   void setPose(const Pose& X_AB);
-  /// The first skin's points as they are drawn; null without one
+  /// The first skin's points as they are drawn, of `mesh`; null without one
   vtkPolyData* skin() const { return skin_; }
 
  private:
@@ -53,6 +57,7 @@ class OrganActors {
     Organ organ = Organ::none;
     bool in_glass = false;
   };
+  void add(const anatomy::OrganSurface& organ);
   void apply();
   void moveTo(bool glass, OrganPart& part);
 
@@ -62,7 +67,7 @@ class OrganActors {
   vtkSmartPointer<vtkPolyData> skin_;
   vtkSmartPointer<vtkActor> inner_side_;  // null: there are organs to be seen
   SkinStyle style_ = SkinStyle::translucent;
-  bool visible_ = true, inside_ = true, walls_ = false, moved_ = false;
+  bool visible_ = true, inside_ = true, walls_ = false, moved_ = false, seen_as_ = false;
   vtkNew<vtkMatrix4x4> X_AB_;
 };
 

@@ -16,6 +16,7 @@
 #include <numbers>
 
 #include "scene/actors/instrument.h"
+#include "scene/actors/organ_actors.h"
 #include "scene/palette.h"
 #include "scene/renderer_setup.h"
 
@@ -195,9 +196,8 @@ std::vector<Vec3> ringAbout(const EntryPlace& entry) {
 
 ToolShadows::ToolShadows(vtkRenderer& on_skin, const anatomy::Patient& patient)
     : ring_(on_skin, colour::kRing, 1.6) {
-  for (const anatomy::OrganSurface& organ : patient.organs)
-    if (!skin_ && organ.organ == Organ::skin && !organ.mesh.triangles.empty())
-      skin_ = std::make_unique<anatomy::TriangleTree>(organ.mesh);
+  if (const anatomy::OrganSurface* skin = seenSkin(patient))
+    skin_ = std::make_unique<anatomy::TriangleTree>(skin->mesh);
   for (int i = 0; i < 2; ++i) ribbons_.push_back(std::make_unique<Ribbon>(on_skin));
 }
 

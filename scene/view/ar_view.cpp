@@ -80,7 +80,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       occluders_(*renderer_) {
   organs_.setInside(layout.inside);
   if (layout.skin_deflection && organs_.skin())
-    skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
+    skin_ = std::make_unique<DeflectedSkin>(seenSkin(patient)->mesh, *organs_.skin());
   setUpRenderers();
   if (stereo_ == Stereo::headset)
     second_ =

@@ -60,6 +60,7 @@ TEST(PalpationFile, TheShippedOnesAreTaken) {
     EXPECT_EQ(settings.library.kinds.size(), 8u);
     EXPECT_TRUE(settings.library.simulated);
     EXPECT_FALSE(settings.taxonomy.haptic.empty());
+    EXPECT_TRUE(settings.seen_as);
   }
   EXPECT_EQ(Copy().refusal(), "");
 }
@@ -187,6 +188,11 @@ TEST(PalpationFile, EveryShippedLumpIsWorthFinding) {
 }
 
 TEST(PalpationFile, NamesWhatIsWrong) {
+  {
+    Copy copy;
+    copy.task["phantom"]["seen_as"] = "knee";
+    EXPECT_TRUE(has(copy.refusal(), "breast, abdomen, prostate or neck"));
+  }
   {
     Copy copy;
     copy.task["phantom"]["high_mm"] = 25;
