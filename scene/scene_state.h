@@ -173,9 +173,10 @@ struct SceneState {
   Pose X_AT = Pose::Identity();
   Tool tool = Tool::needle;
   bool show_tool = true;
-  bool shadows = true;  ///< of tools on the skin, and the ring where a needle went in
-  double plunger = 0;   ///< drawn fraction, 0..1
-  double blood = 0;     ///< fraction of the syringe filled with blood, 0..1
+  bool shadows = true;       ///< of tools on the skin, and the ring where a needle went in
+  bool smooth_edges = true;  ///< of what is drawn
+  double plunger = 0;        ///< drawn fraction, 0..1
+  double blood = 0;          ///< fraction of the syringe filled with blood, 0..1
   /// Whose: an artery's is bright, any other dark; the lung: bubbles rise.
   Tissue blood_of = Tissue::vein_lumen;
   SkinStyle skin = SkinStyle::translucent;

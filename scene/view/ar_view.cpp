@@ -116,7 +116,7 @@ void ArView::place(const Rect& panel, int window_width, int window_height) {
 void ArView::update(const SceneState& state) {
   chooseCamera(state);
   applyCameras(state);
-  compositor_.show(virtual_ ? state.picture : shown_picture_, state.look);
+  compositor_.show(virtual_ ? state.picture : shown_picture_, state.look, state.smooth_edges);
   // Over a picture, and before the world, what is not drawn is black of alpha 0.
   const bool clear = state.picture || see_through_;
   const Rgb& behind = clear ? colour::kClear : colour::kBehindBottom;

@@ -140,7 +140,7 @@ class Compositor::Pass : public vtkProp {
   static Pass* New();
   vtkTypeMacro(Pass, vtkProp);
 
-  void show(const Image* picture, const CameraLook& look);
+  void show(const Image* picture, const CameraLook& look, bool smooth);
   int RenderOverlay(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -153,19 +153,20 @@ class Compositor::Pass : public vtkProp {
   double blurIn(int width) const;
 
   Image picture_;  ///< none: width 0
-  bool fresh_ = false;
+  bool fresh_ = false, smooth_edges_ = true;
   CameraLook look_;
   double tile_neighbours_ = -1;
   std::array<float, 2> grain_place_{};
   std::mt19937 places_{2};
   vtkNew<vtkTextureObject> drawn_, smooth_, camera_, grain_;
   vtkNew<vtkOpenGLFramebufferObject> apart_;
-  Quad smooth_only_, sharp_, blurred_;
+  Quad smooth_only_, jagged_, sharp_, blurred_;
 };
 vtkStandardNewMacro(Compositor::Pass);
 
-void Compositor::Pass::show(const Image* picture, const CameraLook& look) {
+void Compositor::Pass::show(const Image* picture, const CameraLook& look, bool smooth) {
   look_ = legible(look);
+  smooth_edges_ = smooth;
   if (!picture) {
     picture_ = {};
     return;
@@ -189,6 +190,7 @@ void Compositor::Pass::prepare(vtkOpenGLRenderWindow& window, int width, int hei
     };
     using namespace glsl;
     smooth_only_ = quad({kBegin, kSmooth, kSmoothOnly});
+    jagged_ = quad({kBegin, kJagged, kOver});
     sharp_ = quad({kBegin, kSmooth, kSharp, kOver});
     blurred_ = quad({kBegin, kBlur, kOver});
     for (vtkTextureObject* texture : {drawn_.Get(), smooth_.Get(), camera_.Get()})
@@ -242,7 +244,7 @@ void Compositor::Pass::smoothApart(vtkOpenGLRenderWindow& window, int width, int
 
 void Compositor::Pass::compose(vtkOpenGLRenderWindow& window, vtkTextureObject& drawn,
                                double blur_px, int width, int height) {
-  vtkOpenGLQuadHelper& quad = blur_px > 0 ? *blurred_ : *sharp_;
+  vtkOpenGLQuadHelper& quad = blur_px > 0 ? *blurred_ : smooth_edges_ ? *sharp_ : *jagged_;
   vtkShaderProgram& program = *quad.Program;
   window.GetShaderCache()->ReadyShaderProgram(&program);
   drawn.Activate();
@@ -292,8 +294,9 @@ int Compositor::Pass::RenderOverlay(vtkViewport* viewport) {
   const FlatDrawing flat(window.GetState());
   drawn_->CopyFromFrameBuffer(left, bottom, 0, 0, width, height);
   const double blur_px = blurIn(width);
-  if (blur_px > 0) smoothApart(window, width, height);
-  compose(window, blur_px > 0 ? *smooth_ : *drawn_, blur_px, width, height);
+  const bool apart = blur_px > 0 && smooth_edges_;
+  if (apart) smoothApart(window, width, height);
+  compose(window, apart ? *smooth_ : *drawn_, blur_px, width, height);
   return 1;
 }
 
@@ -301,7 +304,7 @@ void Compositor::Pass::ReleaseGraphicsResources(vtkWindow* window) {
   for (vtkTextureObject* texture : {drawn_.Get(), smooth_.Get(), camera_.Get(), grain_.Get()})
     texture->ReleaseGraphicsResources(window);
   apart_->ReleaseGraphicsResources(window);
-  for (Quad* quad : {&smooth_only_, &sharp_, &blurred_}) {
+  for (Quad* quad : {&smooth_only_, &jagged_, &sharp_, &blurred_}) {
     if (*quad) (*quad)->ReleaseGraphicsResources(window);
     quad->reset();
   }
@@ -317,7 +320,9 @@ Compositor::Compositor(vtkRenderer& last)
 
 Compositor::~Compositor() { renderer_.RemoveViewProp(pass_.get()); }
 
-void Compositor::show(const Image* picture, const CameraLook& look) { pass_->show(picture, look); }
+void Compositor::show(const Image* picture, const CameraLook& look, bool smooth) {
+  pass_->show(picture, look, smooth);
+}
 
 void Compositor::setOn(bool on) { pass_->SetVisibility(on); }
 

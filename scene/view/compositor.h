@@ -26,7 +26,7 @@ class Compositor {
   ~Compositor();
 
   /// Before a frame; null: no picture. Throws Error when size and pixels disagree.
-  void show(const Image* picture, const CameraLook& look);
+  void show(const Image* picture, const CameraLook& look, bool smooth);
   void setOn(bool on);
 
  private:

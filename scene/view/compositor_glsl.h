@@ -71,6 +71,10 @@ inline constexpr const char* kSmoothOnly = R"(
 void main() { gl_FragData[0] = smoothed(texCoord); }
 )";
 
+inline constexpr const char* kJagged = R"(
+vec4 overlay(vec2 at) { return drawnAt(at); }
+)";
+
 inline constexpr const char* kSharp = R"(
 vec4 overlay(vec2 at) { return smoothed(at); }
 )";

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# fault_campaign.sh PROGRAM FAULTS [COUNT]: COUNT short sessions (default 50; PALPA_FULL=1: 1,000),
+# fault_campaign.sh PROGRAM FAULTS [COUNT]: COUNT short sessions (default 30; PALPA_FULL=1: 1,000),
 # each struck by one fault from outside at a moment that follows from its number. Of each:
 #   - it ends by itself, and with words: in order, or with a line "palpa: ..." of ours
 #   - the evidence opens and replays to the last bit, as far as it was recorded
@@ -8,7 +8,7 @@
 # full disk is a small tmpfs where this user may mount one, else that library, too.
 set -uo pipefail
 palpa=$1 faults=$2
-count=${3:-50}
+count=${3:-30}
 [ $# -lt 3 ] && [ "${PALPA_FULL:-}" = 1 ] && count=1000
 top=$(cd "$(dirname "$0")/../.." && pwd)
 library_words=$top/tests/support/library_words.txt

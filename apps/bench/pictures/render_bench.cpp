@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
@@ -204,6 +205,42 @@ void benchHeadsetApart(bool quick) {
   std::printf("%s\n", said.c_str());
 }
 
+/// What parts of a picture take of the processor: frames with them beside frames without.
+void benchCosts(const anatomy::Patient& patient, int blocks, scene::SceneView& view,
+                const json& params) {
+  SessionFrames frames(patient);
+  const auto print_cost = [&](const char* part, const std::function<void(int)>& without,
+                              const std::function<void(int)>& with) {
+    const double without_ms = 1e-3 * timeQueries(64, without).median_us;
+    json p = params;
+    p["part"] = part;
+    print("frame_cost", (compareQueries(blocks, 4, without, with).median - 1) * without_ms, "ms",
+          p);
+  };
+  const auto all = [&](int i) { view.show(frames.at(i)); };
+  const auto lacking = [&](void (*take)(scene::SceneState&)) {
+    return [&frames, &view, take](int i) {
+      scene::SceneState state = frames.at(i);
+      take(state);
+      view.show(state);
+    };
+  };
+  using State = scene::SceneState;
+  print_cost("shadow and ring", lacking([](State& s) { s.shadows = false; }), all);
+  print_cost("camera's blur and grain", lacking([](State& s) { s.look = {}; }), all);
+  print_cost("force arrows", lacking([](State& s) { s.forces.clear(); }), all);
+  print_cost("words", lacking([](State& s) { s.hud = {}; }), all);
+  const auto sharp = [&](bool smooth) {
+    return [&frames, &view, smooth](int i) {
+      State state = frames.at(i);
+      state.look = {};  // else smoothing is a pass of its own, and what follows differs
+      state.smooth_edges = smooth;
+      view.show(state);
+    };
+  };
+  print_cost("smooth edges", sharp(false), sharp(true));
+}
+
 /// Shares of a frame's time.
 void benchShares(const anatomy::Patient& patient, scene::SceneView& view, const json& params) {
   SessionFrames frames(patient);
@@ -238,6 +275,7 @@ void benchRender(const RenderBenchOptions& options) {
     scene::SceneView view(*context, patient, {options.width, options.height});
     benchFrame(patient, options, blocks, view, params);
     benchSteadiness(patient, options, view, params);
+    benchCosts(patient, blocks, view, params);
     benchShares(patient, view, params);
   }
   benchTranslucency(*context->window(), patient, blocks, params);
