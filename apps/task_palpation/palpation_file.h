@@ -8,7 +8,7 @@
 
 #include "anatomy/base/random.h"
 #include "anatomy/parametric/body_part.h"
-#include "apps//assess/palpation/palpation_assessment.h"
+#include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/station/material_files.h"
 #include "apps/station/task_sections.h"
 
