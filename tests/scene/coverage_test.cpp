@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/parametric/body_part.h"
 #include "anatomy/parametric/phantoms.h"
 #include "scene/view/framing.h"
 #include "tests/scene/offscreen.h"
@@ -324,39 +323,6 @@ TEST(SearchInFixedViews, ShowAllOfABlock) {
     EXPECT_GT(warm.top, 200 * panel + 4);
     EXPECT_LT(warm.bottom, 200 * panel + 196);
   }
-}
-
-/// In the large view, where the block ends the body goes on; the fixed views keep to the block.
-TEST(SeenAs, TheLargeViewHasThePartOfABodyAndTheFixedOnesTheBlock) {
-  anatomy::Patient part = block();
-  part.seen_as = anatomy::bodyPart(anatomy::BodyPart::abdomen, {}, {0.03, 0.03}, 0.05);
-  const Image dark = plain(640, 480, 0);
-  SceneState state = straightOn(dark);
-  state.camera = {640, 480, 500, 500, 319.5, 239.5};
-  state.X_CA = lookAt({0, -0.5, -0.1}, {0, 0, 0});
-  const auto frameOf = [&](const anatomy::Patient& patient, FixedViews fixed) {
-    SceneView view(offscreen(), patient, {fixed == FixedViews::none ? 640 : 900, 480, fixed, true});
-    view.show(state);
-    return view.capture();
-  };
-  const Image as_block = frameOf(block(), FixedViews::none),
-              as_part = frameOf(part, FixedViews::none);
-  const auto redAt = [&](const Image& image, const Vec3& p_A) {
-    const Eigen::Vector2d px = project(state.camera, state.X_CA * p_A);
-    return at(image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())))
-        .r;
-  };
-  EXPECT_GT(redAt(as_part, onTop(0, 0)), 60);
-  EXPECT_LT(redAt(as_block, onTop(-0.085, 0, -0.02)), 10);
-  EXPECT_GT(redAt(as_part, onTop(-0.085, 0, -0.02)), 60);
-  const Image block_views = frameOf(block(), FixedViews::three),
-              part_views = frameOf(part, FixedViews::three);
-  EXPECT_EQ(blobOf(block_views,
-                   [&](int u, int v) {
-                     return u > 640 && difference(at(block_views, u, v), at(part_views, u, v)) > 0;
-                   })
-                .count,
-            0);
 }
 
 /// Both eyes of a stereo view see the carpet and what lies under it.
