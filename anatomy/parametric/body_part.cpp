@@ -63,7 +63,7 @@ Tone abdomenTone(double x, double y) {
 
 /// Below 0 inside of the gland's outline: wide at its base, a notch there.
 double fromGland(double x, double y) {
-  const double wide = 0.025 + 0.10 * (y + 0.020) * 0.2;
+  const double wide = 0.025 + 0.02 * (y + 0.020);
   const double notch = 0.006 * bell(x, 0.007) * rise(y, 0, 0.02);
   return std::hypot(x / wide, (y + notch) / 0.020) - 1;
 }
@@ -133,6 +133,7 @@ class Sheet {
 
  private:
   int stepsAlong(int axis) const { return int(std::lround(2 * form_.half[axis] / kStep)); }
+
   double height(double x, double y) const {
     const double beyond =
         std::hypot(std::max(std::abs(x) - half_.x(), 0.0), std::max(std::abs(y) - half_.y(), 0.0));

@@ -211,8 +211,8 @@ void ArView::showLines(const SceneState& state, bool visible) {
 Surroundings ArView::toolOnScreen(const SceneState& state, std::size_t of) const {
   Surroundings around;
   if (!shows_patient_ || !state.show_tool) return around;
-  const EyeCamera eye = stereo_ == Stereo::none ? this->eye() : eyes_[of];
-  const Rect& where = stereo_ == Stereo::none ? picture_ : eye_panels_[of];
+  const EyeCamera eye = this->eye(of);
+  const Rect& where = eyePanel(of);
   const auto depth = [&](const Vec3& p_A) { return std::max((eye.X_CA * p_A).z(), kNearestThing); };
   const auto on_screen = [&](const Vec3& p_A) {
     const Vec3 p = eye.X_CA * p_A / depth(p_A);

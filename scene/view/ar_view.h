@@ -52,13 +52,17 @@ class ArView {
   /// Of a stereo view; as large as their panels
   const std::array<EyeCamera, 2>& eyes() const { return eyes_; }
   const std::array<Rect, 2>& panelsOfEyes() const { return eye_panels_; }
-  /// What is seen where: the camera, or the left one of two eyes, and the part of the window that
-  /// it fills.
-  EyeCamera eye() const { return stereo_ == Stereo::none ? EyeCamera{pinhole_, X_CA_} : eyes_[0]; }
+  /// What is seen where: the camera, or one of two eyes (0 left, 1 right), and the part of the
+  /// window that it fills.
+  EyeCamera eye(std::size_t of = 0) const {
+    return stereo_ == Stereo::none ? EyeCamera{pinhole_, X_CA_} : eyes_.at(of);
+  }
   /// Where an eye (0, 1; without stereo 0) has the tool in the window, its tip and where a needle
   /// went in.
   Surroundings toolOnScreen(const SceneState& state, std::size_t eye) const;
-  const Rect& eyePanel() const { return stereo_ == Stereo::none ? picture_ : eye_panels_[0]; }
+  const Rect& eyePanel(std::size_t of = 0) const {
+    return stereo_ == Stereo::none ? picture_ : eye_panels_.at(of);
+  }
 
  private:
   void chooseCamera(const SceneState& state);

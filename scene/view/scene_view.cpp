@@ -209,10 +209,10 @@ ViewInput SceneView::poll() {
   return input;
 }
 
-ArGeometry SceneView::arGeometry() const {
-  const Rect& picture = impl_->ar.eyePanel();
+ArGeometry SceneView::arGeometry(std::size_t of) const {
+  const Rect& picture = impl_->ar.eyePanel(of);
   const double top = impl_->size[1] - picture.top();
-  EyeCamera eye = impl_->ar.eye();
+  EyeCamera eye = impl_->ar.eye(of);
   eye.camera.cx += picture.x;
   eye.camera.cy += top;
   return {eye.camera,

@@ -62,7 +62,7 @@ class SceneView {
   void copyEye(std::size_t eye, const TextureTarget& target) const;
   ViewInput poll();  ///< events of an interactive window; empty otherwise
 
-  ArGeometry arGeometry() const;
+  ArGeometry arGeometry(std::size_t eye = 0) const;  ///< 1: the right one's, in stereo
   /// What words cover of the last frame (before each eye of a headset: of both), pixels of the
   /// window, origin bottom left.
   std::vector<Rect> wordPlates() const;

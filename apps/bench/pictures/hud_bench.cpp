@@ -145,9 +145,8 @@ class Watch {
     state.X_CA = X_CA_;
     state.show_tool = show_tool_;
     state.hud.timeline.reset();
-    if (window_.stereo == scene::Stereo::headset) state.camera = eyeOfHeadset();
-    if (window_.stereo != scene::Stereo::none)
-      state.eyes = scene::stereoPair(state.camera, X_CA_, kApart, kFocus);
+    if (window_.stereo == scene::Stereo::headset)
+      state.eyes = scene::stereoPair(eyeOfHeadset(), X_CA_, kApart, kFocus);
     if (show_tool_) shown_ = state;
   }
 
@@ -157,12 +156,9 @@ class Watch {
     return {width, height, f, f, 0.5 * (width - 1), 0.5 * (height - 1)};
   }
 
-  std::vector<Eye> eyes() const {
-    const scene::ArGeometry g = view_.arGeometry();
-    if (!shown_.eyes) return {{{shown_.camera, shown_.X_CA}, g.x, g.y, g.width, g.height}};
-    const double right = window_.stereo == scene::Stereo::headset ? 0.5 * window_.width : 0;
-    return {{(*shown_.eyes)[0], g.x, g.y, g.width, g.height},
-            {(*shown_.eyes)[1], g.x + right, g.y, g.width, g.height}};
+  std::vector<scene::ArGeometry> eyes() const {
+    if (window_.stereo == scene::Stereo::none) return {view_.arGeometry()};
+    return {view_.arGeometry(0), view_.arGeometry(1)};
   }
 
   void judge(const std::vector<scene::Rect>& plates) {
@@ -174,9 +170,9 @@ class Watch {
     }
     bool tip = false, entry = false;
     double share = 0;
-    for (const Eye& eye : eyes()) {
-      tip = tip || covers(plates, eye.pixelOf(shown_.X_AT.translation()));
-      if (const auto in_A = entry_A()) entry = entry || covers(plates, eye.pixelOf(*in_A));
+    for (const scene::ArGeometry& eye : eyes()) {
+      tip = tip || covers(plates, pixelOf(eye, shown_.X_AT.translation()));
+      if (const auto in_A = entry_A()) entry = entry || covers(plates, pixelOf(eye, *in_A));
       share = std::max(share, coveredShare(plates, eye));
     }
     tally_->tip += tip;
@@ -214,7 +210,7 @@ class Watch {
            });
   }
 
-  double coveredShare(const std::vector<scene::Rect>& plates, const Eye& eye) const {
+  double coveredShare(const std::vector<scene::Rect>& plates, const scene::ArGeometry& eye) const {
     const double scale = std::min(1.0, kMaskWidth / window_.width);
     const cv::Mat1b tool = toolOutline(shown_, eye, {window_.width, window_.height}, scale);
     cv::Mat1b under(tool.size(), uchar(0));

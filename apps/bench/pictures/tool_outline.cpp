@@ -44,14 +44,14 @@ std::vector<Cone> probePieces() {
   return pieces;
 }
 
-void fill(const Cone& piece, const Pose& X_AT, const Eye& eye, double scale, cv::Mat1b* mask) {
+void fill(const Cone& piece, const Pose& X_AT, const scene::ArGeometry& eye, double scale, cv::Mat1b* mask) {
   std::vector<cv::Point2f> outline;
   for (int i = 0; i < kRound; ++i) {
     const double angle = 2 * std::numbers::pi * i / kRound;
     const Vec3 round(std::cos(angle), std::sin(angle), 0);
     for (const Vec3& p : {Vec3(piece.r0 * round + piece.z0 * Vec3::UnitZ()),
                           Vec3(piece.r1 * round + piece.z1 * Vec3::UnitZ())}) {
-      const auto px = eye.pixelOf(X_AT * p);
+      const auto px = pixelOf(eye, X_AT * p);
       if (!px) return;
       outline.emplace_back(static_cast<float>(scale * px->x()),
                            static_cast<float>(scale * px->y()));
@@ -67,17 +67,15 @@ void fill(const Cone& piece, const Pose& X_AT, const Eye& eye, double scale, cv:
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> Eye::pixelOf(const Vec3& p_A) const {
-  const Vec3 p = camera.X_CA * p_A;
+std::optional<Eigen::Vector2d> pixelOf(const scene::ArGeometry& eye, const Vec3& p_A) {
+  const Vec3 p = eye.X_CA * p_A;
   if (p.z() < kBeforeLens) return std::nullopt;
-  const scene::Pinhole& c = camera.camera;
-  const double u = c.fx * p.x() / p.z() + c.cx, v = c.fy * p.y() / p.z() + c.cy;
-  return Eigen::Vector2d(left + (u + 0.5) * width / c.width - 0.5,
-                         top + (v + 0.5) * height / c.height - 0.5);
+  const scene::Pinhole& c = eye.camera;
+  return Eigen::Vector2d(c.fx * p.x() / p.z() + c.cx, c.fy * p.y() / p.z() + c.cy);
 }
 
-cv::Mat1b toolOutline(const scene::SceneState& state, const Eye& eye, const cv::Size& window,
-                      double scale) {
+cv::Mat1b toolOutline(const scene::SceneState& state, const scene::ArGeometry& eye,
+                      const cv::Size& window, double scale) {
   cv::Mat1b mask(static_cast<int>(scale * window.height), static_cast<int>(scale * window.width),
                  uchar(0));
   const auto draw = [&](const std::vector<Cone>& pieces, const Pose& X_AT) {
@@ -85,7 +83,7 @@ cv::Mat1b toolOutline(const scene::SceneState& state, const Eye& eye, const cv::
   };
   draw(state.tool == scene::Tool::needle ? needlePieces(state.plunger) : probePieces(), state.X_AT);
   if (state.second_X_AT) draw(probePieces(), *state.second_X_AT);
-  const cv::Rect seen(static_cast<int>(scale * eye.left), static_cast<int>(scale * eye.top),
+  const cv::Rect seen(static_cast<int>(scale * eye.x), static_cast<int>(scale * eye.y),
                       static_cast<int>(scale * eye.width), static_cast<int>(scale * eye.height));
   cv::Mat1b within(mask.size(), uchar(0));
   const cv::Rect inside = seen & cv::Rect({0, 0}, mask.size());
