@@ -15,9 +15,9 @@ enum class BodyPart { breast, abdomen, prostate, neck };
 /// "breast", "abdomen", "prostate", "neck"; nothing for any other word.
 std::optional<BodyPart> bodyPartNamed(const std::string& word);
 
-/// A sheet over the block and the table about it: within `half` of the middle it is the block's top,
-/// so that what is seen is where it is felt; from there it runs over 40 mm into a form
-/// of the usual size [chosen] and out on the table, `high` below the origin. With a picture.
+/// A sheet over the block and the table about it: within `half` of the middle it is the block's
+/// top, so that what is seen is where it is felt; from there it runs over 40 mm into a form of the
+/// usual size [chosen] and out on the table, `high` below the origin. With a picture.
 ///   breast     a mound of 150 mm on the chest's wall; areola
 ///   abdomen    the right upper quadrant: falls to the flanks, rises to the costal margin; navel
 ///   prostate   the gland through the wall of the rectum: 50 x 40 mm, two lobes, a furrow's shade

@@ -26,7 +26,8 @@ namespace palpa::scene {
 namespace {
 
 constexpr double kSilicone = 0.5;  // opacity of a block, whose shape is to be seen, too
-constexpr double kSeenAs = 0.72;   // of a part of a body in its place: the block hardly shines through
+constexpr double kSeenAs =
+    0.72;  // of a part of a body in its place: the block hardly shines through
 
 double translucentOpacity(Organ organ) {
   if (organ == Organ::skin) return 0.28;

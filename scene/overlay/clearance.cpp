@@ -20,13 +20,16 @@ Surroundings Surroundings::movedBy(const Eigen::Vector2d& px) const {
 }
 
 void Surroundings::add(const Surroundings& more) {
-  tool.insert(tool.end(), more.tool.begin(), more.tool.end());
+  for (Part part : more.tool) {
+    part.eye = 1;
+    tool.push_back(part);
+  }
   points.insert(points.end(), more.points.begin(), more.points.end());
 }
 
 double shareUnder(const Rect& plate, const Surroundings& surroundings, const Rect& panel) {
   constexpr std::array kAcross{-0.9, -0.45, 0.0, 0.45, 0.9};
-  double seen = 0, under = 0;
+  std::array<double, 2> seen{}, under{};
   for (const Surroundings::Part& part : surroundings.tool) {
     const Eigen::Vector2d along = part.to - part.from;
     const double length = along.norm();
@@ -37,11 +40,14 @@ double shareUnder(const Rect& plate, const Surroundings& surroundings, const Rec
         const Eigen::Vector2d p = part.from + (i + 0.5) / kPlaces * along + across * side;
         if (!panel.contains(p.x(), p.y())) continue;
         const double area = length * part.half_width;
-        seen += area;
-        if (plate.contains(p.x(), p.y())) under += area;
+        seen[part.eye] += area;
+        if (plate.contains(p.x(), p.y())) under[part.eye] += area;
       }
   }
-  return seen > 0 ? under / seen : 0;
+  double most = 0;
+  for (std::size_t eye = 0; eye < 2; ++eye)
+    if (seen[eye] > 0) most = std::max(most, under[eye] / seen[eye]);
+  return most;
 }
 
 bool isClear(const Rect& plate, const Surroundings& surroundings, const Rect& panel) {

@@ -13,12 +13,13 @@ struct Surroundings {
   struct Part {
     Eigen::Vector2d from, to;
     double half_width = 1;
+    std::size_t eye = 0;  ///< who sees it so: each eye's tool counts alone
   };
   std::vector<Part> tool;
   std::vector<Eigen::Vector2d> points;  ///< its tip, and where it went in
 
   Surroundings movedBy(const Eigen::Vector2d& px) const;
-  void add(const Surroundings& more);
+  void add(const Surroundings& more);  ///< as the other eye sees it
 };
 
 /// The part of the tool's area, as it is seen in `panel`, that lies under a plate; 0 to 1.

@@ -25,7 +25,8 @@ class Compositor {
   explicit Compositor(vtkRenderer& last);
   ~Compositor();
 
-  /// Before a frame; null: no picture; `smooth`: jagged edges of what was drawn. Throws Error when size and pixels disagree.
+  /// Before a frame; null: no picture; `smooth`: jagged edges of what was drawn. Throws Error when
+  /// size and pixels disagree.
   void show(const Image* picture, const CameraLook& look, bool smooth);
   void setOn(bool on);
 

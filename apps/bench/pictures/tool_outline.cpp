@@ -44,7 +44,8 @@ std::vector<Cone> probePieces() {
   return pieces;
 }
 
-void fill(const Cone& piece, const Pose& X_AT, const scene::ArGeometry& eye, double scale, cv::Mat1b* mask) {
+void fill(const Cone& piece, const Pose& X_AT, const scene::ArGeometry& eye, double scale,
+          cv::Mat1b* mask) {
   std::vector<cv::Point2f> outline;
   for (int i = 0; i < kRound; ++i) {
     const double angle = 2 * std::numbers::pi * i / kRound;
