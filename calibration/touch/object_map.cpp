@@ -20,10 +20,13 @@ constexpr double kLeastSpread = 0.02, kMostSpread = 0.8;
 constexpr double kLeastSurplus = 0.003, kMostSurplus = 0.08;
 constexpr double kNegligible = 6;  // of the logarithm of the best one's probability
 
-double likenessAt(double r) {
+double twiceSmooth(double r) {
   const double s = std::sqrt(5.0) * r;
   return (1 + s + s * s / 3) * std::exp(-s);
 }
+double endlesslySmooth(double r) { return std::exp(-r * r / 2); }
+using Likeness = double (*)(double);
+constexpr Likeness kLikenesses[] = {twiceSmooth, endlesslySmooth};
 
 double gridAt(double least, double most, int i, int count) {
   return least * std::pow(most / least, static_cast<double>(i) / (count - 1));
@@ -94,20 +97,21 @@ std::optional<ObjectMap::Process> ObjectMap::processOf(const std::vector<Touched
 void ObjectMap::learn(const Eigen::MatrixXd& apart) {
   double best = -1e300;
   std::vector<Process> all;
-  for (int l = 0; l < kReaches; ++l) {
-    const double reach = apart.maxCoeff() * gridAt(kShortest, kFarthest, l, kReaches);
-    const Eigen::MatrixXd likeness =
-        apart.unaryExpr([reach](double d) { return likenessAt(d / reach); });
-    for (int s = 0; s < kSpreads; ++s) {
+  const auto consider = [&](Likeness like, double reach) {
+    const Eigen::MatrixXd likeness = apart.unaryExpr([&](double d) { return like(d / reach); });
+    for (int s = 0; s < kSpreads; ++s)
       for (int t = 0; t < kSurpluses; ++t) {
         auto process = processOf(touches_, likeness, gridAt(kLeastSpread, kMostSpread, s, kSpreads),
                                  reach, gridAt(kLeastSurplus, kMostSurplus, t, kSurpluses));
         if (!process || process->weight < best - kNegligible) continue;
+        process->like = like;
         best = std::max(best, process->weight);
         all.push_back(std::move(*process));
       }
-    }
-  }
+  };
+  for (const Likeness like : kLikenesses)
+    for (int l = 0; l < kReaches; ++l)
+      consider(like, apart.maxCoeff() * gridAt(kShortest, kFarthest, l, kReaches));
   double sum = 0;
   for (Process& process : all) {
     if (process.weight < best - kNegligible) continue;
@@ -128,7 +132,7 @@ MapValue ObjectMap::at(const Eigen::Vector2d& p) const {
   for (const Process& process : processes_) {
     for (Eigen::Index i = 0; i < n; ++i)
       k[i] = process.variance *
-             likenessAt((touches_[static_cast<std::size_t>(i)].at - p).norm() / process.reach);
+             process.like((touches_[static_cast<std::size_t>(i)].at - p).norm() / process.reach);
     const double middle = process.mean + k.dot(process.pull);
     const double explained = process.lower.triangularView<Eigen::Lower>().solve(k).squaredNorm();
     const double left = 1 - k.dot(process.even);  // what the mean's own uncertainty adds

@@ -22,11 +22,13 @@ struct MapValue {
 
 /// A figure all over a surface, by a Gaussian process on its logarithm:
 ///     ln v(p) = c + g(p),   cov(g(p), g(q)) = s^2 M(|p - q| / l),   touch = ln v + e
-///     M(r) = (1 + sqrt(5) r + 5 r^2 / 3) exp(-sqrt(5) r),   var e = sd^2 + tau^2
-/// c is anything, with equal right. Spread s, reach l and the surplus noise tau are not chosen: all
-/// that the touches allow count, each as much as they make it probable, so that the interval knows
-/// what is not known of them. Matern's M: twice smooth, as what a round tip feels is. (Rasmussen
-/// and Williams, Gaussian Processes for Machine Learning, 2006: 2.2, 2.7, 4.2.1, 5.2.)
+///     M(r) = (1 + sqrt(5) r + 5 r^2 / 3) exp(-sqrt(5) r) or exp(-r^2 / 2),   var e = sd^2 + tau^2
+/// c is anything, with equal right. Spread s, reach l, the surplus noise tau and which M it is are
+/// not chosen: all that the touches allow count, each as much as they make it probable, so that the
+/// interval knows what is not known of them. Matern's M is twice smooth, as what a round tip feels
+/// near an edge is; the other endlessly: without it, soft slopes were thought rougher than they
+/// are, and an interval of 95 % held 99 %. (Rasmussen and Williams, Gaussian Processes for Machine
+/// Learning, 2006: 2.2, 2.7, 4.2.1, 5.2.)
 class ObjectMap {
  public:
   /// Throws Error for fewer than 6 touches, invalid figures, a spread of zero or less, and
@@ -40,7 +42,7 @@ class ObjectMap {
   const std::vector<TouchedPlace>& touches() const { return touches_; }
 
  private:
-  struct Process;  ///< s, l, tau; what follows from them
+  struct Process;  ///< M, s, l, tau; what follows from them
   static std::optional<Process> processOf(const std::vector<TouchedPlace>& touches,
                                           const Eigen::MatrixXd& likeness, double spread,
                                           double reach, double surplus);
@@ -53,7 +55,8 @@ class ObjectMap {
 };
 
 struct ObjectMap::Process {
-  double weight = 0;  ///< its logarithm at first
+  double (*like)(double) = nullptr;  ///< M
+  double weight = 0;                 ///< its logarithm at first
   double variance = 0, reach = 0, mean = 0, ones = 0;
   Eigen::MatrixXd lower;       ///< Cholesky's factor of the touches' covariance K
   Eigen::VectorXd pull, even;  ///< K^-1 (ln - c), K^-1 1

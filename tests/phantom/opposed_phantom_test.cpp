@@ -101,7 +101,8 @@ TEST(OpposedTable, IsWhatTheElementsSay) {
     const OpposedCell found = table.at(0, depth), turned = table.at(0, {depth[1], depth[0]});
     EXPECT_NEAR(found.f[0].y(), told.f[0].z(), 0.03 * told.f[0].z());
     EXPECT_NEAR(found.f[1].y(), -told.f[1].z(), 0.03 * told.f[0].z());
-    EXPECT_NEAR(turned.f[1].y(), found.f[0].y(), 1e-6) << "as still as the elements come to rest";
+    // the elements are let go where 1e-6 of the force is left over
+    EXPECT_NEAR(turned.f[1].y(), found.f[0].y(), 1e-5 * told.f[0].z());
   }
 }
 

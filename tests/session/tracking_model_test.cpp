@@ -176,14 +176,18 @@ statistics::Equivalence judged(const char* name, const Pairs& pairs, double marg
   return e;
 }
 
-/// The same pairs with a model whose errors are twice as large: that must not pass.
+/// A model's errors times this must not pass. What a report states is only in part the tracking's:
+/// where that part is small, errors twice as large are within the margin, and rightly so. (Of 500
+/// sessions 5 % of the stated error's square was the tracking's, so that twice its errors made the
+/// stated one 1.08 times as large, and three times should make it 1.20.)
+constexpr double kWrong = 3;
 Pairs wrongErrors(const Pairs& right, std::uint64_t first_seed, NeedleWorld& world) {
   const std::filesystem::path folder = freshPlace("wrong_figures");
   std::filesystem::create_directories(folder);
   nlohmann::json figures = JsonFile(station::assetFile("tracking/virtual_camera.json")).json();
   for (nlohmann::json& distance : figures["distances"])
     for (const char* part : {"bias_px", "strength"})
-      for (nlohmann::json& value : distance[part]) value = 2 * value.get<double>();
+      for (nlohmann::json& value : distance[part]) value = kWrong * value.get<double>();
   writeWhole(folder / "figures.json", figures.dump(), Lasts::no);
   nlohmann::json station = world.station.file.json();
   station["twin"]["tracking_figures"] = (folder / "figures.json").string();
