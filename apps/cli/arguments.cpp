@@ -1,5 +1,6 @@
 #include "apps/cli/arguments.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -24,6 +25,7 @@ const std::map<std::string, scene::Display> kDisplays{{"auto", scene::Display::a
                                                       {"window", scene::Display::window},
                                                       {"offscreen", scene::Display::offscreen}};
 constexpr const char* kHeadset = "openxr";
+constexpr const char* kWholeMonitor = "full";
 const std::map<std::string, anatomy::Side> kSides{{"right", anatomy::Side::right},
                                                   {"left", anatomy::Side::left}};
 const std::map<std::string, scene::ForceColours> kForceColours{
@@ -87,6 +89,36 @@ void addRecordedPictures(CLI::App& command, session::SessionOptions& o) {
 
 }  // namespace
 
+void addWindowArguments(CLI::App& command, scene::WindowPlace& place) {
+  command
+      .add_option_function<std::string>(
+          "--window",
+          [&place](const std::string& text) {
+            place.full_screen = text == kWholeMonitor;
+            if (!place.full_screen) std::sscanf(text.c_str(), "%dx%d", &place.width, &place.height);
+          },
+          "How large the window is (default: as it was last); full: all of the monitor, as F11 "
+          "makes it and takes it back")
+      ->check(writtenAs("full|[1-9][0-9]{2,4}x[1-9][0-9]{2,4}", "full or a size such as 1600x900"))
+      ->type_name("SIZE|full");
+  command
+      .add_option("--monitor", place.monitor,
+                  "Where the window is, by the monitor's number from the left, or its name "
+                  "(default: where it was last); palpa doctor lists them")
+      ->check(writtenAs("[^-].*", "a monitor's number or name"))
+      ->type_name("NUMBER|NAME");
+}
+
+void addGpuArgument(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--gpu", [](const std::string& text) { scene::drawBy(text); },
+          "By what pictures are drawn without a window: auto (the default), none (the processor) "
+          "or a graphics card's number; palpa doctor lists them")
+      ->check(writtenAs("auto|none|[1-9][0-9]?", "auto, none or a card's number"))
+      ->type_name("auto|none|NUMBER");
+}
+
 void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
   command.add_option("--station", o.station, "Station file; default: the virtual bench")
       ->type_name("FILE")
@@ -119,6 +151,8 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
           "Where to show it; openxr: on a headset, and on the desktop beside it")
       ->check(oneOf({"auto", "window", "offscreen", kHeadset}))
       ->type_name("auto|offscreen|openxr|window");
+  addWindowArguments(command, o.window);
+  addGpuArgument(command);
   command.add_flag("--assess", o.assess,
                    "Assessment: every aid is off, as in an examination; a needle trial ends at "
                    "the fourth pass");

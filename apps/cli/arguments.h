@@ -6,11 +6,16 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/session/session_options.h"
+#include "scene/window/desktop.h"
 
 namespace palpa::cli {
 
 /// Adds the options that say where and how a session is held: station, operator, display, folder.
 void addPlaceArguments(CLI::App& command, session::SessionOptions& options);
+/// --window and --monitor: where a window is to be.
+void addWindowArguments(CLI::App& command, scene::WindowPlace& place);
+/// --gpu: by what is drawn, in this process.
+void addGpuArgument(CLI::App& command);
 /// These, and the others that every session command has.
 void addRunArguments(CLI::App& command, session::SessionOptions& options);
 /// --augment, where a task's file has augmentations that are off by default.

@@ -1,6 +1,7 @@
 #include "anatomy/base/error.h"
 #include "apps/bench/bench.h"
 #include "apps/bench/pictures/tracking_fit.h"
+#include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/values.h"
 #include "apps/session/terminal.h"
@@ -123,6 +124,7 @@ void addRenderBench(CLI::App& bench) {
                    "Frames for so long, a picture saved or surfaces sorted now and then")
       ->check(inRange(0.01, 600.0));
   render->add_flag("--quick", options->quick, "Fewer repetitions; --minutes 10 takes as long");
+  addGpuArgument(*render);
   render->callback([options] { bench::benchRender(*options); });
 }
 

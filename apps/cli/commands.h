@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "scene/window/desktop.h"
+
 /// One function a subcommand of `palpa`: adds it to the program with its options, examples and
 /// action. Actions throw UsageError (exit code 2) or Error (1).
 namespace palpa::cli {
@@ -75,11 +77,12 @@ void addStudyPlan(CLI::App& study);
 /// How a recorded trial is to be seen.
 struct ReplayViewOptions {
   bool view = false;
-  bool show_map = true;  ///< of what was felt, where the session has one
-  std::string video;     ///< film to write
-  std::string pictures;  ///< folder for single pictures; both empty: a window
-  std::string figures;   ///< folder for figures of a search's floor
-  std::string size = "1280x720";
+  bool show_map = true;           ///< of what was felt, where the session has one
+  std::string video;              ///< film to write
+  std::string pictures;           ///< folder for single pictures; both empty: a window
+  std::string figures;            ///< folder for figures of a search's floor
+  std::string size = "1280x720";  ///< of film and pictures
+  scene::WindowPlace window = {};
   int trial = 0;                            ///< 0: the first that was finished
   double speed = 1, from_s = 0, to_s = -1;  ///< of the trial; -1: to its end
   double frames_per_second = 25;

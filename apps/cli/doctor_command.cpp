@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "anatomy/base/counted.h"
@@ -18,7 +19,9 @@
 #include "apps/twin/setup_bench.h"
 #include "ar/cameras/recorded_pictures.h"
 #include "ar/cameras/webcam.h"
+#include "scene/window/egl_devices.h"
 #include "scene/window/gl_context.h"
+#include "scene/window/x11_window.h"
 
 namespace palpa::cli {
 namespace {
@@ -118,6 +121,25 @@ Finding recordsOf(const DoctorOptions& o) {
   }
 }
 
+doctor::Desktop desktopHere() {
+  doctor::Desktop desktop;
+  desktop.trouble = scene::whyNoX11();
+  desktop.advice = scene::adviceWithoutX11();
+  desktop.is_there = std::getenv("DISPLAY") != nullptr || scene::isWaylandAlone();
+  if (!desktop.trouble.empty()) return desktop;
+  for (const scene::Monitor& one : scene::monitors())
+    desktop.monitors.push_back(one.name + ", " + std::to_string(one.width) + "x" +
+                               std::to_string(one.height) + (one.primary ? " (primary)" : ""));
+  return desktop;
+}
+
+std::vector<std::string> graphicsCards() {
+  std::vector<std::string> names;
+  for (const scene::Gpu& gpu : scene::gpus())
+    if (!gpu.on_processor) names.push_back(gpu.name);
+  return names;
+}
+
 Findings examined(const DoctorOptions& o) {
   Findings all{askAssets()};
   if (canStart(all)) {
@@ -127,10 +149,12 @@ Findings examined(const DoctorOptions& o) {
     if (const auto station = readStation(file, &all))
       append(all, table(*station, seenBy(*station, o), o));
   }
+  all.push_back(judgeDesktop(desktopHere()));
   all.push_back(askDrawing([] {
     const auto context = scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor");
     const std::string renderer = context->renderer();
-    return doctor::Drawing{context->describe(), renderer, scene::drawsOnProcessor(renderer)};
+    return doctor::Drawing{context->describe(), renderer, scene::drawsOnProcessor(renderer),
+                           graphicsCards()};
   }));
   all.push_back(judgeHeadset(headsetRuntime()));
   all.push_back(recordsOf(o));

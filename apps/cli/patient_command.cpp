@@ -11,6 +11,7 @@
 #include "anatomy/parametric/parametric_patient.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
+#include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/patient_sources.h"
 #include "apps/cli/values.h"
@@ -284,6 +285,7 @@ void addRender(CLI::App& program) {
       ->check(somethingThere("patients"));
   command->add_option("--out", o->out, "Picture to write (.png)")->type_name("FILE");
   command->add_option("--size", o->size, "Pixels a side")->check(inRange(300, 8192));
+  addGpuArgument(*command);
   command->callback([o] { render(*o); });
 }
 

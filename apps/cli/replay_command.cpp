@@ -195,8 +195,8 @@ void addReplay(CLI::App& program) {
     if (seen->view + !seen->video.empty() + !seen->pictures.empty() + figures > 1)
       throw UsageError("do not go together", "--view, --video, --pictures and --figures",
                        "Give one of them");
-    for (const char* option :
-         {"--trial", "--speed", "--from", "--to", "--fps", "--size", "--show-map"})
+    for (const char* option : {"--trial", "--speed", "--from", "--to", "--fps", "--size",
+                               "--show-map", "--window", "--monitor", "--gpu"})
       if (!seen->wanted() && command->count(option) > 0 &&
           !(figures && option == std::string("--trial")))
         throw UsageError("has an effect only when a trial is shown again", option,

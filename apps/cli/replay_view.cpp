@@ -8,6 +8,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/cli/arguments.h"
 #include "apps/cli/values.h"
 #include "apps/evidence/recorded_show.h"
 #include "apps/evidence/search_figures.h"
@@ -17,6 +18,7 @@
 #include "apps/replay/player.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/output_folder.h"
+#include "apps/session/stage.h"
 #include "apps/session/terminal.h"
 
 namespace palpa::cli {
@@ -65,12 +67,13 @@ struct ReplayStage {
 };
 
 ReplayStage stageFor(const evidence::RecordedShow& recorded, scene::Display display,
-                     ShownSize size) {
+                     const scene::WindowPlace& place) {
   ReplayStage stage;
-  stage.context = scene::makeGlContext(display, size.width, size.height, "Palpa: replay");
+  stage.context = scene::makeGlContext(display, place, "Palpa: replay");
   scene::ViewLayout layout;
-  layout.width = size.width;
-  layout.height = size.height;
+  layout.width = place.width;
+  layout.height = place.height;
+  if (stage.context->interactive()) layout.text_scale = scene::textScale();
   layout.fixed_views = recorded.fixedViews() ? scene::FixedViews::three : scene::FixedViews::none;
   if (recorded.pictures()) layout.inset = scene::Inset::camera;
   stage.view = std::make_unique<scene::SceneView>(*stage.context, recorded.patient(), layout);
@@ -78,11 +81,13 @@ ReplayStage stageFor(const evidence::RecordedShow& recorded, scene::Display disp
 }
 
 void playInWindow(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
-  const ReplayStage stage = stageFor(recorded, scene::Display::window, {1280, 720});
+  const ReplayStage stage =
+      stageFor(recorded, scene::Display::window, session::placeOfWindow(o.window));
   const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
   replay::Player player(cut.from_s, cut.to_s, o.speed);
   std::printf(
-      "space: pause; Left, Right: 1 s; with shift: a frame; + and -: speed; Escape: leave\n");
+      "space: pause; Left, Right: 1 s; with shift: a frame; + and -: speed; F11: full screen; "
+      "Escape: leave\n");
   constexpr std::int64_t kFrame_ns = 33'333'333;
   const runtime::SteadyClock clock;
   for (std::int64_t last_ns = clock.now(); !player.left() && !shown->input().closed;) {
@@ -99,7 +104,8 @@ void playInWindow(evidence::RecordedShow& recorded, const Cut& cut, const Replay
 void draw(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o,
           const std::function<void(int number, const scene::Image&)>& keep) {
   const ShownSize size = sizeOf(o.size);
-  const ReplayStage stage = stageFor(recorded, scene::Display::offscreen, size);
+  const ReplayStage stage =
+      stageFor(recorded, scene::Display::offscreen, {size.width, size.height, false, ""});
   const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
   const int frames = std::max(
       1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
@@ -191,6 +197,8 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
       ->check(oneOf({"on", "off"}))
       ->type_name("on|off");
   command.add_option("--size", o.size, "Size of the pictures, pixels")->type_name("WxH");
+  addWindowArguments(command, o.window);
+  addGpuArgument(command);
 }
 
 void writeReplayFigures(const std::string& file, const ReplayViewOptions& o) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 #include "anatomy/base/error.h"
@@ -163,6 +164,13 @@ CLI::Validator oneOfOrFile(std::vector<std::string> words) {
                    proposal(typed, words);
           },
           described};
+}
+
+CLI::Validator writtenAs(const std::string& pattern, const std::string& needs) {
+  return {[form = std::regex(pattern), needs](const std::string& typed) {
+            return std::regex_match(typed, form) ? std::string() : refused(needs, typed);
+          },
+          ""};
 }
 
 std::vector<std::string> shippedNames(const std::string& folder) {

@@ -24,6 +24,9 @@ CLI::Validator oneOf(std::vector<std::string> words);
 /// One of them, or the name of a file that is there; without words anything.
 CLI::Validator oneOfOrFile(std::vector<std::string> words);
 
+/// Written so (a regular expression); `needs`: in words, after "needs".
+CLI::Validator writtenAs(const std::string& pattern, const std::string& needs);
+
 /// What the files in a folder of the assets are called, without extension; sorted.
 std::vector<std::string> shippedNames(const std::string& folder);
 

@@ -126,6 +126,17 @@ Finding judgeDate(const std::string& now_utc, const std::string& built_utc) {
   return {"date", State::well, now_utc.substr(0, 10) + " " + now_utc.substr(11, 5) + " UTC"};
 }
 
+Finding judgeDesktop(const Desktop& desktop) {
+  if (!desktop.trouble.empty())
+    return desktop.is_there
+               ? Finding{"window", State::note, desktop.trouble, desktop.advice}
+               : Finding{"window", State::absent, "no desktop: " + desktop.trouble, ""};
+  std::string words;
+  for (std::size_t i = 0; i < desktop.monitors.size(); ++i)
+    words += (i > 0 ? "; " : "") + std::to_string(i + 1) + ": " + desktop.monitors[i];
+  return {"window", State::well, "on monitor " + words};
+}
+
 Finding askDrawing(const std::function<Drawing()>& draw) {
   try {
     const Drawing by = draw();
@@ -134,6 +145,9 @@ Finding askDrawing(const std::function<Drawing()>& draw) {
       words += " on the processor, no graphics processor: " + by.renderer;
     else if (!by.renderer.empty())
       words += " on " + by.renderer;
+    for (std::size_t i = 0; i < by.cards.size(); ++i)
+      words +=
+          (i == 0 ? "; --gpu takes " : ", ") + std::to_string(i + 1) + " (" + by.cards[i] + ")";
     return {"pictures", State::well, words};
   } catch (const std::exception& e) {
     Finding finding = troubled("pictures", State::ill, e.what());

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "apps/doctor/finding.h"
 #include "apps/doctor/picture_facts.h"
@@ -37,10 +39,19 @@ Finding judgeDate(const std::string& now_utc, const std::string& built_utc);
 
 /// What pictures are drawn with.
 struct Drawing {
-  std::string context;        ///< "X11 window"
-  std::string renderer;       ///< as OpenGL names it; empty: not known
-  bool on_processor = false;  ///< no graphics processor draws
+  std::string context;                  ///< "X11 window"
+  std::string renderer;                 ///< as OpenGL names it; empty: not known
+  bool on_processor = false;            ///< no graphics processor draws
+  std::vector<std::string> cards = {};  ///< that could, by number
 };
+/// What a desktop has: `trouble`, why no window can be opened, with `advice`; else its monitors.
+struct Desktop {
+  std::string trouble, advice;
+  bool is_there = false;              ///< where nobody sits there is none, and that is well
+  std::vector<std::string> monitors;  ///< from the left: "HDMI-1, 1920x1080"
+};
+Finding judgeDesktop(const Desktop& desktop);
+
 /// Pictures can be drawn, and by what. `draw` makes a context and says which, or throws.
 Finding askDrawing(const std::function<Drawing()>& draw);
 

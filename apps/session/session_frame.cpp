@@ -164,11 +164,20 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
                          std::int64_t now_ns) { publish(state, status, now_ns); };
   if (!window_) return stage;
   stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
+    notePlace(now_ns);
     handleKeys(input, channels_, bus_.stop);
     if (PointingHand* hand = devices_.pointing())
       hand->handle(input, stage_.view->arGeometry(), now_ns);
   };
   return stage;
+}
+
+/// On the thread that draws: once the session is over, its window may be gone.
+void SessionFrame::notePlace(std::int64_t now_ns) {
+  constexpr std::int64_t kSeldom_ns = 2'000'000'000;
+  if (place_ && now_ns - place_asked_ns_ < kSeldom_ns) return;
+  place_ = stage_.context->place();
+  place_asked_ns_ = now_ns;
 }
 
 /// To whoever looks on; without views, in words only.
@@ -260,6 +269,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   writer.close();
   if (live_ && !live_->end()) sayTrouble(partInWords("console") + kLeftBehind);
   live_.reset();
+  if (place_) rememberWindow(*place_);
   SessionRun run = leftBy(task, scene);
   for (report::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
   run.dropped = recorder.dropped() + task.lostTicks();
@@ -276,6 +286,7 @@ SessionRun SessionFrame::leftBy(const trial::TrialTask& task, const trial::Trial
   run.camera_remarks = pictures_.remarks();
   run.board = scene.board();
   run.devices = devices_.facts();
+  run.renderer = stage_.renderer;
   run.safety_events = task.safetyEvents();
   run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;
   run.quit = task.quit();

@@ -37,6 +37,7 @@ struct SessionRun {
   /// what took the force away, what a driver had to say
   std::vector<runtime::Event> safety_events;
   std::vector<report::Fact> devices;  ///< what their drivers counted
+  std::string renderer;               ///< what drew, as OpenGL names it; empty: nothing was drawn
   std::uint64_t dropped = 0;          ///< records lost by the recorder
   double simulated_s = 0;
   bool quit = false;
@@ -95,6 +96,7 @@ class SessionFrame {
   std::unique_ptr<runtime::Activity> loop(runtime::GeometryActivity* geometry);
   /// After the run, apart from what was recorded and what OpenIGTLink's links say.
   SessionRun leftBy(const trial::TrialTask& task, const trial::TrialScene& scene);
+  void notePlace(std::int64_t now_ns);
   void publish(const scene::SceneState& state, const trial::TrialStatus& status,
                std::int64_t now_ns);
 
@@ -113,6 +115,8 @@ class SessionFrame {
   std::optional<runtime::VideoRecorder> video_;
   std::unique_ptr<live::LiveSession> live_;  ///< while somebody may look on
   bool picture_wanted_ = false;              ///< by one of them, of this frame
+  std::optional<scene::WindowPlace> place_;  ///< of the window, not long ago
+  std::int64_t place_asked_ns_ = 0;
 };
 
 /// Words on the picture that say what is not a person on a real station.

@@ -9,6 +9,7 @@
 #include "anatomy/base/json_file.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
+#include "scene/window/x11_window.h"
 
 namespace palpa::session {
 namespace {
@@ -155,9 +156,13 @@ void settleOperator(SessionOptions& o, const station::Station& station) {
 }
 
 void settle(SessionOptions& o) {
-  if (o.display == scene::Display::automatic)
-    o.display = std::getenv("DISPLAY") && !o.fast && !o.no_views ? scene::Display::window
-                                                                 : scene::Display::offscreen;
+  if (o.display == scene::Display::automatic) {
+    const bool shown = !o.fast && !o.no_views;
+    if (shown && scene::isWaylandAlone())
+      throw UsageError(scene::whyNoX11(), "the window", scene::adviceWithoutX11());
+    o.display =
+        shown && std::getenv("DISPLAY") ? scene::Display::window : scene::Display::offscreen;
+  }
   if (o.who == OperatorKind::person) checkPerson(o);
   if (o.headset && (o.fast || o.no_views))
     throw UsageError("cannot go with --display openxr", o.fast ? "--fast" : "--no-views",

@@ -90,6 +90,7 @@ struct SessionOptions {
   bool demonstration = true;    ///< a person first watches an expert's recorded trial
   bool familiarisation = true;  ///< and then tries once, unscored
   scene::Display display = scene::Display::automatic;
+  scene::WindowPlace window = {};         ///< width 0: as it was left last
   bool headset = false;                   ///< beside the desktop's view
   std::string camera, intrinsics, board;  ///< recorded pictures instead of the station's camera
   std::string expert_path;                ///< overrides the task's

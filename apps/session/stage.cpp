@@ -1,11 +1,20 @@
 #include "apps/session/stage.h"
 
 #include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
+#include "apps/os/file_access.h"
 
 namespace palpa::session {
 namespace {
+
+constexpr int kUsualWidth = 1280, kUsualHeight = 720;
+constexpr int kLeastSide_px = 120;
 
 scene::FixedViews fixedViews(const presentation::Presentation& shown) {
   switch (shown.views) {
@@ -19,6 +28,25 @@ scene::FixedViews fixedViews(const presentation::Presentation& shown) {
   return scene::FixedViews::three;
 }
 
+std::filesystem::path windowFile() {
+  return os::stateFolder("Set HOME, or XDG_STATE_HOME to a folder of yours") / "palpa/window.json";
+}
+
+/// As it was left last; nothing where nothing was kept, or what was kept makes no sense.
+std::optional<scene::WindowPlace> rememberedPlace() {
+  try {
+    std::ifstream kept(windowFile());
+    if (!kept) return std::nullopt;
+    const nlohmann::json file = nlohmann::json::parse(kept);
+    scene::WindowPlace place{file.at("width"), file.at("height"), file.at("full_screen"),
+                             file.at("monitor")};
+    if (place.width < kLeastSide_px || place.height < kLeastSide_px) return std::nullopt;
+    return place;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 std::string silencesOf(const headset::HeadsetView& view) {
   const int times = view.silences();
   return times == 0 ? ""
@@ -28,10 +56,38 @@ std::string silencesOf(const headset::HeadsetView& view) {
 
 }  // namespace
 
+scene::WindowPlace placeOfWindow(const scene::WindowPlace& asked) {
+  const std::vector<scene::Monitor> all = scene::monitors();
+  scene::WindowPlace place = asked;
+  const std::optional<scene::WindowPlace> last = rememberedPlace();
+  if (last && asked.width == 0 && !asked.full_screen) {
+    place = *last;
+    place.monitor = asked.monitor;
+  }
+  if (all.empty()) return {kUsualWidth, kUsualHeight, false, ""};  // no window can be made
+  if (last && asked.monitor.empty())
+    for (const scene::Monitor& one : all)
+      if (one.name == last->monitor) place.monitor = one.name;
+  return scene::fittedTo(scene::monitorOf(place.monitor, all), place);
+}
+
+void rememberWindow(const scene::WindowPlace& now) {
+  const nlohmann::json file{{"width", now.width},
+                            {"height", now.height},
+                            {"full_screen", now.full_screen},
+                            {"monitor", now.monitor}};
+  try {
+    std::filesystem::create_directories(windowFile().parent_path());
+    writeWhole(windowFile(), file.dump(), Lasts::no);
+  } catch (const std::exception&) {  // the next window is as large as usual
+  }
+}
+
 DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
                        bool fixed_views) {
   const presentation::Presentation shown = shownIn(options);
   scene::ViewLayout layout;
+  scene::WindowPlace place{layout.width, layout.height, false, ""};
   layout.fixed_views = fixed_views ? fixedViews(shown) : scene::FixedViews::none;
   layout.inside = shown.anatomy;
   layout.free_navigation = options.navigation && shown.navigation;
@@ -40,9 +96,16 @@ DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& pa
   layout.stereo = options.stereo;
   layout.inset = options.inset;
   layout.framed = options.camera.empty();  // recorded pictures are there to see how all of it fits
+  if (window) {
+    place = placeOfWindow(options.window);
+    layout.width = place.width;
+    layout.height = place.height;
+    layout.text_scale = scene::textScale();
+  }
   DesktopStage stage;
   stage.context = scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
-                                       layout.width, layout.height, "Palpa");
+                                       place, "Palpa");
+  stage.renderer = stage.context->renderer();
   stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
   return stage;
 }

@@ -14,7 +14,14 @@ namespace palpa::session {
 struct DesktopStage {
   std::unique_ptr<scene::GlContextProvider> context;
   std::unique_ptr<scene::SceneView> view;
+  std::string renderer = {};  ///< what draws, as OpenGL names it
 };
+
+/// Where a window is to be: as it was asked for, else as it was left last, else four fifths of the
+/// primary monitor. Throws UsageError for a monitor that was asked for and is not there.
+scene::WindowPlace placeOfWindow(const scene::WindowPlace& asked);
+/// For the next one; a preference: where it cannot be kept, it is forgotten.
+void rememberWindow(const scene::WindowPlace& now);
 
 DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
                        bool fixed_views = true);

@@ -53,11 +53,13 @@ std::pair<std::string, std::string> halves(const std::string& text) {
 
 }  // namespace
 
-int textSize_px(int window_height) { return std::max(kSmallestText_px, (window_height + 24) / 48); }
+int textSize_px(int window_height, double scale) {
+  const int least = static_cast<int>(scale * kSmallestText_px + 0.5);
+  return std::max(least, (window_height + 24) / 48);
+}
 
-int stripHeight_px(int window_height) {
-  const int text = textSize_px(window_height);
-  return lineHeight({static_cast<int>(0.85 * text + 0.5)}) + 2 * (text / 2);
+int stripHeight_px(int text_px) {
+  return lineHeight({static_cast<int>(0.85 * text_px + 0.5)}) + 2 * (text_px / 2);
 }
 
 struct HudPainter::Content {
@@ -65,7 +67,7 @@ struct HudPainter::Content {
   std::set<ForceKind> kinds;
   bool cut = false;
   Rect panel;
-  int height = 0;
+  int text_px = 0;
   bool operator==(const Content&) const = default;
 };
 
@@ -74,8 +76,8 @@ HudPainter::HudPainter(vtkRenderer& renderer, ForceColours colours)
 HudPainter::~HudPainter() = default;
 
 void HudPainter::update(const Hud& text, const std::vector<ForceArrow>& forces, const Rect& panel,
-                        int window_height, const Surroundings& surroundings) {
-  Content wanted{text, kindsDrawn(forces), anyCut(forces), panel, window_height};
+                        int text_px, const Surroundings& surroundings) {
+  Content wanted{text, kindsDrawn(forces), anyCut(forces), panel, text_px};
   if (!content_ || !(*content_ == wanted)) {
     content_ = std::make_unique<Content>(std::move(wanted));
     panel_ = panel;
@@ -100,7 +102,7 @@ bool HudPainter::put(Plate plate, const Rect& frame) {
 }
 
 void HudPainter::build() {
-  text_ = textSize_px(content_->height);
+  text_ = content_->text_px;
   margin_ = text_ * 3 / 4;
   below_ = content_->panel.top() - margin_;
   above_ = content_->panel.y + margin_;
@@ -275,7 +277,7 @@ void HudPainter::buildTimeline() {
   if (!content_->text.timeline) return;
   const Timeline& strip = *content_->text.timeline;
   const TextStyle look = style(0.85, false, colour::kText);
-  const int pad = text_ / 2, height = stripHeight_px(content_->height);
+  const int pad = text_ / 2, height = stripHeight_px(text_);
   const Rect frame{content_->panel.x + margin_, above_, content_->panel.width - 2 * margin_,
                    height};
   plates_.add(frame, colour::kPlate, pad / 2);

@@ -14,10 +14,11 @@ class vtkRenderer;
 
 namespace palpa::scene {
 
-/// Size of ordinary text for a window of this height.
-int textSize_px(int window_height);
+/// Size of ordinary text for a window of this height, on a desktop whose text is so much larger
+/// than usual.
+int textSize_px(int window_height, double scale = 1);
 /// What the strip of a replay takes of the view's lower edge, without its margin.
-int stripHeight_px(int window_height);
+int stripHeight_px(int text_px);
 
 /// Words over the AR view: the phase at the top left, the mark at the top right; readings at the
 /// bottom left, over the legend of the force arrows; the notice at the bottom centre; of a replay a
@@ -35,7 +36,7 @@ class HudPainter {
 
   /// Lays everything out again, only when something changed.
   void update(const Hud& text, const std::vector<ForceArrow>& forces, const Rect& panel,
-              int window_height, const Surroundings& surroundings = {});
+              int text_px, const Surroundings& surroundings = {});
 
   /// Of all plates that are drawn now, the notice's last
   std::vector<Rect> plates() const;

@@ -73,12 +73,12 @@ void OrthoView::aimCamera() {
   camera->SetClippingRange(0.01, 2 * kAway);
 }
 
-void OrthoView::place(const Rect& where, int window_width, int window_height) {
+void OrthoView::place(const Rect& where, int window_width, int window_height, int text_px) {
   where_ = where;
   setViewport(*renderer_, where, window_width, window_height);
   window_height_ = window_height;
   renderer_->GetActiveCamera()->SetParallelScale(0.5 * metresAcross() * where.height / where.width);
-  layoutWords(window_height);
+  layoutWords(text_px);
 }
 
 void OrthoView::put(const std::string& words, const TextStyle& style, int x, int y) {
@@ -95,8 +95,7 @@ void OrthoView::put(const std::string& words, const TextStyle& style, int x, int
   words_.back()->set(words, style, x, y, Align::centre);
 }
 
-void OrthoView::layoutWords(int window_height) {
-  const int text = textSize_px(window_height);
+void OrthoView::layoutWords(int text) {
   const TextStyle caption{std::max(kSmallestText_px, text * 4 / 5), true, colour::kText};
   const TextStyle letter{std::max(kSmallestText_px, text * 3 / 4), false, colour::kText};
   const int w = where_.width, h = where_.height;

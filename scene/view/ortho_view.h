@@ -32,7 +32,7 @@ class OrthoView {
   void setDrawn(bool drawn);
 
   void addTrail(Trail& trail);
-  void place(const Rect& where, int window_width, int window_height);
+  void place(const Rect& where, int window_width, int window_height, int text_px);
 
   /// Painting the still picture: prepare all views, render the window once, keep from what it
   /// shows.
@@ -46,7 +46,7 @@ class OrthoView {
   vtkSmartPointer<vtkActor> sectionOf(const anatomy::Patient& patient) const;
   Sight sight() const;
   double metresAcross() const;  ///< at the panel's width
-  void layoutWords(int window_height);
+  void layoutWords(int text_px);
   void putScaleBar(const TextStyle& style);
   bool claim(const Rect& plate);
   void put(const std::string& words, const TextStyle& style, int x, int y);

@@ -8,6 +8,7 @@
 #include <vtkRendererCollection.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -25,11 +26,16 @@
 #include "scene/window/pixels.h"
 
 namespace palpa::scene {
+namespace {
+constexpr const char* kFullScreenKey = "F11";
+}
+
 struct SceneView::Impl {
   Impl(GlContextProvider& provider, const anatomy::Patient& patient, const ViewLayout& wanted);
   ~Impl();
 
   void place();
+  int text_px() const { return textSize_px(size[1], layout.text_scale); }
   void paintStills();
   void show(const SceneState& state);
   void writeWords(const SceneState& state);
@@ -67,7 +73,7 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
       margins(*frame),
       ar((window.AddRenderer(frame), window), patient, region, layout),
       hud(*words, layout.force_colours) {
-  window.SetSize(layout.width, layout.height);
+  if (!context.interactive()) window.SetSize(layout.width, layout.height);
   window.SetNumberOfLayers(3);
   if (layout.see_through) window.SetAlphaBitPlanes(1);
   setUpRenderer(*frame, layout.see_through ? colour::kClear : colour::kBorder);
@@ -107,12 +113,16 @@ void SceneView::Impl::place() {
   margins.clear();
   if (layout.stereo != Stereo::headset) margins.add(panels.ar, {dark[0], dark[1], dark[2], 1}, 0);
   const Rect* places[] = {&panels.front, &panels.side, &panels.top};
-  for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i]->place(*places[i], size[0], size[1]);
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    fixed[i]->place(*places[i], size[0], size[1], text_px());
   paintStills();
 }
 
 /// Where one is shown at a time they lie over each other, and each is painted alone.
+/// Nobody sees that: the window shows the next whole frame.
 void SceneView::Impl::paintStills() {
+  const int shows = window.GetSwapBuffers();
+  window.SetSwapBuffers(0);
   words->DrawOff();
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     for (std::size_t other = 0; other < fixed.size(); ++other) fixed[other]->setDrawn(other == i);
@@ -122,6 +132,7 @@ void SceneView::Impl::paintStills() {
   }
   for (const auto& view : fixed) view->setDrawn(true);
   words->DrawOn();
+  window.SetSwapBuffers(shows);
 }
 
 void SceneView::Impl::show(const SceneState& state) {
@@ -134,7 +145,7 @@ void SceneView::Impl::show(const SceneState& state) {
     fixed[i]->update(state);
   }
   Rect free = panels.ar;
-  if (state.hud.timeline) free.y += stripHeight_px(size[1]) + textSize_px(size[1]) / 2;
+  if (state.hud.timeline) free.y += stripHeight_px(text_px()) + text_px() / 2;
   if (inset) inset->show(state.beside ? state.beside : state.picture, free, size[0], size[1]);
   writeWords(state);
   window.Render();
@@ -148,13 +159,14 @@ void SceneView::Impl::writeWords(const SceneState& state) {
   if (ar.showsPatient() && state.surface_map) text.scale = scaleOf(*state.surface_map);
   Surroundings around = ar.toolOnScreen(state, 0);
   if (isMerged(layout.stereo)) around.add(ar.toolOnScreen(state, 1));
-  if (!other_hud) return hud.update(text, forces, panels.ar, size[1], around);
+  if (!other_hud) return hud.update(text, forces, panels.ar, text_px(), around);
   // The same words at the same places of both: they make way for what either eye sees.
   const std::array<Rect, 2> where = wordPanels(ar.eyes(), ar.panelsOfEyes());
   const Eigen::Vector2d to_left(where[0].x - where[1].x, where[0].y - where[1].y);
   around.add(ar.toolOnScreen(state, 1).movedBy(to_left));
-  hud.update(text, forces, where[0], 2 * where[0].height, around);
-  other_hud->update(text, forces, where[1], 2 * where[1].height, around.movedBy(-to_left));
+  const int eyes_text_px = textSize_px(2 * where[0].height);
+  hud.update(text, forces, where[0], eyes_text_px, around);
+  other_hud->update(text, forces, where[1], eyes_text_px, around.movedBy(-to_left));
 }
 
 /// Both eyes one after the other, and then their one picture over the whole window.
@@ -199,6 +211,8 @@ void SceneView::copyEye(std::size_t eye, const TextureTarget& target) const {
 ViewInput SceneView::poll() {
   if (!impl_->input) return {};
   ViewInput input = impl_->input->poll();
+  if (std::count(input.keys.begin(), input.keys.end(), kFullScreenKey) % 2 == 1)
+    impl_->context.setFullScreen(!impl_->context.place().value_or(WindowPlace{}).full_screen);
   const auto [width, height] = impl_->size;
   const Eigen::Vector2d mouse =
       inEyesPicture({input.mouse_x, input.mouse_y}, width, height, impl_->layout.stereo);

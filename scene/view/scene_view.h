@@ -25,7 +25,7 @@ struct ViewInput {
 };
 
 struct ViewLayout {
-  int width = 1280, height = 720;
+  int width = 1280, height = 720;  ///< of a picture; a window is as large as it was made
   FixedViews fixed_views = FixedViews::three;
   bool free_navigation = true;  ///< drag the virtual camera; a protocol can switch it off
   /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must
@@ -39,6 +39,7 @@ struct ViewLayout {
   bool inside = true;  ///< what lies under the skin is drawn
   /// Of the camera's picture the part where the work is, as large as it goes; else all of it
   bool framed = false;
+  double text_scale = 1;  ///< of the desktop's text
 };
 
 /// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left:
@@ -60,7 +61,8 @@ class SceneView {
   Image capture() const;               ///< the last frame, RGB, top row first
   /// The last frame of one eye (0 left, 1 right; a stereo view) into a texture of the same context.
   void copyEye(std::size_t eye, const TextureTarget& target) const;
-  ViewInput poll();  ///< events of an interactive window; empty otherwise
+  /// Events of an interactive window; empty otherwise. F11 fills the monitor, and again goes back.
+  ViewInput poll();
 
   ArGeometry arGeometry(std::size_t eye = 0) const;  ///< 1: the right one's, in stereo
   /// What words cover of the last frame (before each eye of a headset: of both), pixels of the

@@ -5,68 +5,13 @@
 #include <vtkOpenGLState.h>
 #include <vtkSmartPointer.h>
 
-#include <cstring>
-#include <vector>
-
 #include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <GL/gl.h>
 
 #include "anatomy/base/error.h"
 
 namespace palpa::scene {
 namespace {
-
-struct Candidate {
-  EGLDisplay display;
-  const char* name;
-};
-
-bool has(const char* extensions, const char* wanted) {
-  return extensions != nullptr && std::strstr(extensions, wanted) != nullptr;
-}
-
-template <class Function>
-Function entry(const char* name) {
-  return reinterpret_cast<Function>(eglGetProcAddress(name));
-}
-
-EGLDisplay platformDisplay(EGLenum platform, void* native) {
-  static const auto get = entry<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-  return get ? get(platform, native, nullptr) : EGL_NO_DISPLAY;
-}
-
-std::vector<EGLDeviceEXT> devices(bool software) {
-  const auto list = entry<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-  const auto describe = entry<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
-  EGLDeviceEXT found[16];
-  EGLint count = 0;
-  if (!list || !describe || !list(16, found, &count)) return {};
-  std::vector<EGLDeviceEXT> result;
-  for (EGLint i = 0; i < count; ++i) {
-    if (has(describe(found[i], EGL_EXTENSIONS), "EGL_MESA_device_software") == software)
-      result.push_back(found[i]);
-  }
-  return result;
-}
-
-std::vector<Candidate> candidates() {
-  const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  const bool by_device = has(client, "EGL_EXT_platform_device");
-  std::vector<Candidate> result;
-  const auto addDevices = [&](bool software) {
-    if (!by_device) return;
-    for (EGLDeviceEXT device : devices(software))
-      result.push_back({platformDisplay(EGL_PLATFORM_DEVICE_EXT, device), "EGL device"});
-  };
-  addDevices(false);
-  if (has(client, "EGL_MESA_platform_surfaceless")) {
-    result.push_back(
-        {platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY), "surfaceless EGL"});
-  }
-  addDevices(true);
-  return result;
-}
 
 EGLContext createContext(EGLDisplay display, void** config_out) {
   // The default EGL_SURFACE_TYPE asks for windows, which these platforms do not have.
@@ -89,10 +34,12 @@ EGLContext createContext(EGLDisplay display, void** config_out) {
 
 }  // namespace
 
-EglContext::EglContext() {
-  for (const Candidate& candidate : candidates()) {
+EglContext::EglContext(const GpuChoice& choice) {
+  for (const EglCandidate& candidate : candidatesFor(choice, gpus()))
     if (open(candidate.display, candidate.name)) return;
-  }
+  if (choice.card > 0)
+    throw Error("gives no OpenGL", "graphics card " + std::to_string(choice.card),
+                "Update its driver, or leave out --gpu");
   throw Error("no way to draw without a window was found", "EGL",
               "Install libegl1 and libgl1-mesa-dri, or start the program under xvfb-run");
 }
@@ -161,7 +108,7 @@ vtkStandardNewMacro(EglWindow);
 
 class EglProvider : public GlContextProvider {
  public:
-  EglProvider(int width, int height) {
+  EglProvider(int width, int height, const GpuChoice& choice) : context_(choice) {
     window_->setContext(&context_);
     window_->SetOwnContext(0);
     window_->SetSupportsOpenGL(1);
@@ -199,11 +146,11 @@ class EglProvider : public GlContextProvider {
 
 }  // namespace
 
-std::unique_ptr<GlContextProvider> makeEglWindow(int width, int height) {
+std::unique_ptr<GlContextProvider> makeEglWindow(int width, int height, const GpuChoice& choice) {
   if (!glewInitIsOurs())
     throw Error("the program hides the glewInit of palpa_scene", "EGL",
                 "Link the CMake target palpa_scene with its link options");
-  return std::make_unique<EglProvider>(width, height);
+  return std::make_unique<EglProvider>(width, height, choice);
 }
 
 }  // namespace palpa::scene

@@ -3,16 +3,17 @@
 #include <memory>
 #include <string>
 
+#include "scene/window/egl_devices.h"
 #include "scene/window/gl_context.h"
 
 namespace palpa::scene {
 
-/// A desktop OpenGL (core, 3.2 or later) context without any surface or window system. Looks in
-/// this order: EGL devices with hardware behind them, Mesa's surfaceless platform, Mesa's software
-/// device. Throws Error when none gives a context.
+/// A desktop OpenGL (core, 3.2 or later) context without any surface or window system. Unless one
+/// is chosen, looks in this order: EGL devices with hardware behind them, Mesa's surfaceless
+/// platform, Mesa's software device. Throws Error when none gives a context.
 class EglContext {
  public:
-  EglContext();
+  explicit EglContext(const GpuChoice& choice = {});
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
@@ -32,7 +33,8 @@ class EglContext {
 
 /// Pictures without a display: a VTK window that draws into its own buffers on an EglContext.
 /// Throws Error when the machine has no EGL, or the program does not export our glewInit.
-std::unique_ptr<GlContextProvider> makeEglWindow(int width, int height);
+std::unique_ptr<GlContextProvider> makeEglWindow(int width, int height,
+                                                 const GpuChoice& choice = {});
 
 }  // namespace palpa::scene
 

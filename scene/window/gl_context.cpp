@@ -3,6 +3,7 @@
 #include <vtkLogger.h>
 #include <vtkOpenGLRenderWindow.h>
 
+#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -17,6 +18,7 @@ namespace {
 // stays.
 enum class PlatformChoice { undecided, glx, egl };
 PlatformChoice process_kind = PlatformChoice::undecided;
+GpuChoice chosen_gpu;
 
 std::unique_ptr<GlContextProvider> remember(PlatformChoice kind,
                                             std::unique_ptr<GlContextProvider> made) {
@@ -24,24 +26,34 @@ std::unique_ptr<GlContextProvider> remember(PlatformChoice kind,
   return made;
 }
 
-std::unique_ptr<GlContextProvider> onX11(int width, int height, const char* title, bool visible) {
+/// Without a title none that a person can see.
+std::unique_ptr<GlContextProvider> onX11(const WindowPlace& place, const char* title) {
   if (process_kind == PlatformChoice::egl)
     throw Error("this process already draws without a display (EGL)", "X11 window",
                 "Open the window in a process of its own");
-  return remember(PlatformChoice::glx, makeX11Window(width, height, title, visible));
+  if (title && chosen_gpu.card > 0)
+    throw UsageError("cannot go with a window, which the X server's card draws", "--gpu",
+                     "Leave it out, or add --display offscreen");
+  return remember(PlatformChoice::glx, makeX11Window(place, title));
 }
 
-std::unique_ptr<GlContextProvider> offscreen(int width, int height, const char* title) {
-  if (process_kind == PlatformChoice::glx) return onX11(width, height, title, false);
+std::unique_ptr<GlContextProvider> offscreen(const WindowPlace& place) {
+  if (process_kind == PlatformChoice::glx) return onX11(place, nullptr);
   try {
-    return remember(PlatformChoice::egl, makeEglWindow(width, height));
+    return remember(PlatformChoice::egl, makeEglWindow(place.width, place.height, chosen_gpu));
   } catch (const Error&) {
     if (process_kind == PlatformChoice::egl || !whyNoX11().empty()) throw;
   }
-  return onX11(width, height, title, false);
+  return onX11(place, nullptr);
 }
 
 }  // namespace
+
+void drawBy(const std::string& gpu) {
+  chosen_gpu = gpuChoiceOf(gpu, gpus());
+  // To Mesa's library, where the X server's card would draw.
+  if (!chosen_gpu.automatic && chosen_gpu.card == 0) setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+}
 
 void GlContextProvider::makeCurrent() { window()->MakeCurrent(); }
 
@@ -68,15 +80,20 @@ void GlContextProvider::neverWait() {
 
 std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int height,
                                                  const char* title) {
-  if (width < 1 || height < 1)
+  return makeGlContext(display, WindowPlace{width, height, false, ""}, title);
+}
+
+std::unique_ptr<GlContextProvider> makeGlContext(Display display, const WindowPlace& place,
+                                                 const char* title) {
+  if (place.width < 1 || place.height < 1)
     throw UsageError("a window needs a width and a height of at least 1 pixel", "window size",
                      "Give for example 1280x720");
   // From 9.3 on VTK writes there what it does, between the program's own lines.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
   const bool can_show = process_kind != PlatformChoice::egl && whyNoX11().empty();
   if (display == Display::window || (display == Display::automatic && can_show))
-    return onX11(width, height, title, true);
-  return offscreen(width, height, title);
+    return onX11(place, title);
+  return offscreen(place);
 }
 
 }  // namespace palpa::scene

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "scene/window/x11_server.h"
 // X11's headers define macros with everyday names: after all others.
 #include <GL/glx.h>
 
@@ -54,14 +55,17 @@ int parkWithoutServer(::Display*) {
 
 class X11Provider : public GlContextProvider {
  public:
-  X11Provider(int width, int height, const char* title, bool visible) : visible_(visible) {
+  X11Provider(const WindowPlace& place, const char* title)
+      : visible_(title != nullptr), place_(place) {
     window_->SetMultiSamples(0);  // multisampling drops translucent actors
-    window_->SetWindowName(title);
-    window_->SetSize(width, height);
+    window_->SetSize(place.width, place.height);
     window_->SetDPI(72);  // text sizes are pixels
-    if (!visible) window_->SetOffScreenRendering(1);
     XSetErrorHandler(noteXError);
     XSetIOErrorHandler(parkWithoutServer);
+    if (visible_)
+      open(title);
+    else
+      window_->SetOffScreenRendering(1);
   }
   ~X11Provider() override { window_->Finalize(); }
 
@@ -70,11 +74,48 @@ class X11Provider : public GlContextProvider {
   const char* describe() const override { return visible_ ? "X11 window" : "offscreen X11"; }
   NativeContext native() override;
   std::unique_ptr<StopKey> stopKey() override;
+  std::optional<WindowPlace> place() override;
+  void setFullScreen(bool full) override;
 
  private:
-  bool visible_;
+  void open(const char* title);
+  DesktopWindow desktop() const {
+    return {static_cast<unsigned long>(
+        reinterpret_cast<std::uintptr_t>(window_->GetGenericWindowId()))};
+  }
+
+  const bool visible_;
+  WindowPlace place_;  ///< of a window; its size out of full screen
   vtkSmartPointer<vtkRenderWindow> window_ = vtkSmartPointer<vtkRenderWindow>::New();
 };
+
+void X11Provider::open(const char* title) {
+  const std::vector<Monitor> all = monitors();
+  const Monitor& on = monitorOf(place_.monitor, all);
+  window_->SetWindowName(title);
+  window_->SetPosition(on.x + (on.width - place_.width) / 2,
+                       on.y + (on.height - place_.height) / 2);
+  window_->Start();  // makes the window
+  desktop().belongTo("palpa");
+  if (place_.full_screen) desktop().fill(true, place_);
+}
+
+std::optional<WindowPlace> X11Provider::place() {
+  if (!visible_) return std::nullopt;
+  place_.full_screen = desktop().fills();
+  place_.monitor = desktop().monitor().name;
+  if (!place_.full_screen) {
+    const int* const size = window_->GetSize();
+    place_.width = size[0];
+    place_.height = size[1];
+  }
+  return place_;
+}
+
+void X11Provider::setFullScreen(bool full) {
+  const std::optional<WindowPlace> now = place();
+  if (now && now->full_screen != full) desktop().fill(full, *now);
+}
 
 /// The GLXFBConfig of this number; VTK keeps it to itself.
 GLXFBConfig configOf(::Display* display, int id) {
@@ -108,8 +149,7 @@ NativeContext X11Provider::native() {
 
 std::unique_ptr<StopKey> X11Provider::stopKey() {
   window_->Start();  // makes the window where there is none
-  return std::make_unique<StopKey>(
-      static_cast<unsigned long>(reinterpret_cast<std::uintptr_t>(window_->GetGenericWindowId())));
+  return std::make_unique<StopKey>(desktop().number);
 }
 
 }  // namespace
@@ -120,33 +160,43 @@ void whenWindowIsLost(std::function<void()> lost) {
   tell_lost = std::move(lost);
 }
 
-namespace {
-
-/// One connection, kept: a bare server (Xvfb) resets itself when its last client goes, and refuses
-/// the next one while it does.
-::Display* keptConnection() {
+::Display* xServer() {
   static ::Display* connection = nullptr;
   if (connection == nullptr) connection = XOpenDisplay(nullptr);
   return connection;
 }
 
-}  // namespace
+namespace {
 
-std::string whyNoX11() {
-  const char* name = std::getenv("DISPLAY");
-  if (name == nullptr || *name == '\0') return "DISPLAY is not set";
-  ::Display* display = keptConnection();
-  if (display == nullptr) return "the X display " + std::string(name) + " cannot be opened";
-  const bool has_glx = glXQueryExtension(display, nullptr, nullptr);
-  return has_glx ? "" : "the X display " + std::string(name) + " offers no OpenGL (GLX)";
+bool isSet(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
 }
 
-std::unique_ptr<GlContextProvider> makeX11Window(int width, int height, const char* title,
-                                                 bool visible) {
+}  // namespace
+
+bool isWaylandAlone() { return isSet("WAYLAND_DISPLAY") && !isSet("DISPLAY"); }
+
+std::string whyNoX11() {
+  if (isWaylandAlone()) return "this desktop is Wayland's, and XWayland is not there";
+  if (!isSet("DISPLAY")) return "DISPLAY is not set";
+  const std::string named = "the X display " + std::string(std::getenv("DISPLAY"));
+  ::Display* const display = xServer();
+  if (display == nullptr) return named + " cannot be opened";
+  const bool has_glx = glXQueryExtension(display, nullptr, nullptr);
+  return has_glx ? "" : named + " offers no OpenGL (GLX)";
+}
+
+std::string adviceWithoutX11() {
+  return isWaylandAlone() ? "Install the package xwayland and log in again, or use --display "
+                            "offscreen"
+                          : "Start a desktop session or use --display offscreen";
+}
+
+std::unique_ptr<GlContextProvider> makeX11Window(const WindowPlace& place, const char* title) {
   const std::string reason = whyNoX11();
-  if (!reason.empty())
-    throw Error(reason, "X11", "Start a desktop session or use --display offscreen");
-  return std::make_unique<X11Provider>(width, height, title, visible);
+  if (!reason.empty()) throw Error(reason, "X11", adviceWithoutX11());
+  return std::make_unique<X11Provider>(place, title);
 }
 
 }  // namespace palpa::scene

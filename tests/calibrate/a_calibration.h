@@ -1,12 +1,9 @@
 #pragma once
 
 #include "apps/station/calibration_file.h"
+#include "tests/support/complaint.h"
 
 namespace palpa::test {
-
-inline bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
 
 /// A tool calibration that is in order.
 inline station::CalibrationFile aCalibration() {

@@ -15,8 +15,8 @@
 namespace palpa::station {
 namespace {
 
+using palpa::test::says;
 using test::aCalibration;
-using test::says;
 
 void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;

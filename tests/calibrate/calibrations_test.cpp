@@ -9,7 +9,7 @@
 namespace palpa::station {
 namespace {
 
-using test::says;
+using palpa::test::says;
 
 AppliedCalibration applied(CalibrationFile file, const std::string& sha) {
   AppliedCalibration c;

@@ -13,7 +13,7 @@
 namespace palpa::calibrate {
 namespace {
 
-using test::says;
+using palpa::test::says;
 
 class SampleTables : public testing::Test {
  protected:

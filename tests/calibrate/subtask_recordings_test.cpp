@@ -5,14 +5,14 @@
 #include <fstream>
 
 #include "tests/calibrate/a_calibration.h"
-#include "tests/calibration/complaint.h"
 #include "tests/record/synthetic_session.h"
+#include "tests/support/complaint.h"
 
 /// Session files as sequences of labelled steps, and what is no such file.
 namespace palpa::calibrate {
 namespace {
 
-using calibration::test::complaint, palpa::test::says;
+using palpa::test::complaint, palpa::test::says;
 
 constexpr const char* kSlowPart =
     R"({"name": "slow", "means": "hardly moving", "on": [{"cue": "speed", "below": 0.01}]})";

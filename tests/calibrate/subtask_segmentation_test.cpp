@@ -8,7 +8,7 @@
 #include "anatomy/base/random.h"
 #include "apps/calibrate/subtask_result.h"
 #include "tests/calibrate/a_calibration.h"
-#include "tests/calibration/complaint.h"
+#include "tests/support/complaint.h"
 #include "tests/support/counts.h"
 
 /// Trials of which the regimes are known, cut into states and compared with labels that fit and
@@ -16,7 +16,7 @@
 namespace palpa::calibrate {
 namespace {
 
-using calibration::test::complaint, palpa::test::says;
+using palpa::test::complaint, palpa::test::says;
 
 struct Regime {
   double speed, force, contact, shaking;  // m/s, N, share, N

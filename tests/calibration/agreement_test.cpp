@@ -7,13 +7,13 @@
 #include <numeric>
 
 #include "anatomy/base/random.h"
-#include "tests/calibration/complaint.h"
+#include "tests/support/complaint.h"
 
 namespace palpa::calibration {
 namespace {
 
-using test::complaint;
-using test::says;
+using palpa::test::complaint;
+using palpa::test::says;
 using Labels = std::vector<int>;
 
 double kappaOf(const Labels& a, const Labels& b) { return cohensKappa(contingencyOf(a, b)); }

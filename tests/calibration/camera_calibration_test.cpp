@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "board_views.h"
-#include "complaint.h"
+#include "tests/support/complaint.h"
 
 namespace palpa::calibration {
 namespace {
 
+using palpa::test::complaint;
+using palpa::test::says;
 using test::boardViews;
-using test::complaint;
-using test::says;
 using test::webcam;
 
 CameraCalibration calibrated(const std::vector<BoardView>& views) {

@@ -4,13 +4,13 @@
 #include "calibration/force_sensor.h"
 #include "calibration/registration.h"
 #include "calibration/rotation.h"
-#include "complaint.h"
+#include "tests/support/complaint.h"
 
 namespace palpa::calibration {
 namespace {
 
-using test::complaint;
-using test::says;
+using palpa::test::complaint;
+using palpa::test::says;
 
 Vec3 unsteady(double t) {
   return 0.03 * Vec3(std::sin(2.1 * t) + std::sin(5.3 * t + 1), std::cos(3.3 * t + 0.5),

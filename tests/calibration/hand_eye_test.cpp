@@ -6,14 +6,14 @@
 #include <numbers>
 
 #include "calibration/rotation.h"
-#include "complaint.h"
+#include "tests/support/complaint.h"
 #include "tests/support/test_data.h"
 
 namespace palpa::calibration {
 namespace {
 
-using test::complaint;
-using test::says;
+using palpa::test::complaint;
+using palpa::test::says;
 
 const Pose kHandTag = makePose(rotationOf(Vec3(0.2, 1.0, -0.4)), Vec3(0.02, 0.01, 0.05));
 const Pose kBaseCamera = makePose(rotationOf(Vec3(-2.0, 0.3, 0.8)), Vec3(0.4, -0.2, 0.6));

@@ -3,13 +3,14 @@
 #include <cmath>
 
 #include "calibration/parts/hidden_markov.h"
-#include "tests/calibration/complaint.h"
 #include "tests/calibration/planted_trials.h"
+#include "tests/support/complaint.h"
 
 namespace palpa::calibration {
 namespace {
 
-using test::complaint, test::says, test::PlantedTrials, test::plantedModel, test::simulated;
+using palpa::test::complaint, palpa::test::says, test::PlantedTrials, test::plantedModel,
+    test::simulated;
 
 HiddenMarkovSettings quick() {
   HiddenMarkovSettings settings;

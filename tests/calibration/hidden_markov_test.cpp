@@ -7,14 +7,14 @@
 #include <numbers>
 
 #include "calibration/parts/agreement.h"
-#include "tests/calibration/complaint.h"
 #include "tests/calibration/planted_trials.h"
+#include "tests/support/complaint.h"
 
 namespace palpa::calibration {
 namespace {
 
-using test::complaint, test::says, test::PlantedTrials, test::plantedModel, test::simulated,
-    test::mostLikelyOfAll;
+using palpa::test::complaint, palpa::test::says, test::PlantedTrials, test::plantedModel,
+    test::simulated, test::mostLikelyOfAll;
 
 bool sameBits(const HiddenMarkov& a, const HiddenMarkov& b) {
   return a.start == b.start && a.transition == b.transition && a.mean == b.mean &&

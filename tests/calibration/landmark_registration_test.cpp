@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "calibration/rotation.h"
-#include "complaint.h"
+#include "tests/support/complaint.h"
 
 namespace palpa::calibration {
 namespace {
 
-using test::complaint;
-using test::says;
+using palpa::test::complaint;
+using palpa::test::says;
 
 const Pose kTruth = makePose(rotationOf(Vec3(0.4, -1.1, 0.7)), Vec3(0.1, -0.2, 0.05));
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "anatomy/base/random.h"
-#include "complaint.h"
+#include "tests/support/complaint.h"
 #include "tests/support/counts.h"
 
 /// A map learnt from touches, judged by shapes that no Gaussian process drew: hard cores, ribs, a
@@ -122,12 +122,12 @@ TEST(ObjectMap, RefusesWhatTellsNothing) {
   Toucher hand(kThings[0], 3);
   std::vector<TouchedPlace> touches = hand.rows(3);
   const auto refusal = [](const std::vector<TouchedPlace>& all) {
-    return test::complaint([&] { const ObjectMap map(all); });
+    return palpa::test::complaint([&] { const ObjectMap map(all); });
   };
-  EXPECT_TRUE(test::says(refusal({touches.begin(), touches.begin() + 5}), "5 touches"));
-  EXPECT_TRUE(test::says(refusal(std::vector<TouchedPlace>(9, touches[0])), "one place"));
+  EXPECT_TRUE(palpa::test::says(refusal({touches.begin(), touches.begin() + 5}), "5 touches"));
+  EXPECT_TRUE(palpa::test::says(refusal(std::vector<TouchedPlace>(9, touches[0])), "one place"));
   touches[4].sd = 0;
-  EXPECT_TRUE(test::says(refusal(touches), "says nothing"));
+  EXPECT_TRUE(palpa::test::says(refusal(touches), "says nothing"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "anatomy/base/random.h"
-#include "complaint.h"
+#include "tests/support/complaint.h"
 
 /// Presses of a thing that relaxes. What relaxes here does so over one time, and over another than
 /// those of the estimator's series; its force grows by another law than the estimator's.
@@ -150,14 +150,15 @@ TEST(RelaxingPress, WhatTellsNothingIsLeftOutOrRefused) {
   presses[1].samples = pressed({.f_d = 0.02}, 0, 1, noise);
   PressedThing found = identifyPresses(presses, kDt);
   EXPECT_TRUE(found.presses[0] && !found.presses[1] && found.presses[2]);
-  EXPECT_TRUE(test::says(found.why, "too light"));
+  EXPECT_TRUE(palpa::test::says(found.why, "too light"));
   presses[1].samples = pressed({.down = 0.03, .hold = 0, .up = 0.03}, 0, 1, noise);
-  EXPECT_TRUE(test::says(identifyPresses(presses, kDt).why, "too short"));
+  EXPECT_TRUE(palpa::test::says(identifyPresses(presses, kDt).why, "too short"));
   presses[1].samples[100].f = std::nan("");
-  EXPECT_TRUE(test::says(identifyPresses(presses, kDt).why, "invalid figures"));
+  EXPECT_TRUE(palpa::test::says(identifyPresses(presses, kDt).why, "invalid figures"));
   presses[1].samples.clear();
   presses.resize(3);
-  EXPECT_TRUE(test::says(test::complaint([&] { identifyPresses(presses, kDt); }), "2 presses"));
+  EXPECT_TRUE(palpa::test::says(palpa::test::complaint([&] { identifyPresses(presses, kDt); }),
+                                "2 presses"));
 }
 
 }  // namespace

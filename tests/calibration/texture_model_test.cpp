@@ -10,7 +10,7 @@
 
 #include "anatomy/base/random.h"
 #include "calibration/touch/third_octave.h"
-#include "complaint.h"
+#include "tests/support/complaint.h"
 
 /// A texture that was made by a known filter is found again; strokes that cannot tell it are
 /// refused.
@@ -39,8 +39,8 @@ TextureStroke strokeOf(const Planted& planted, double f_n, double speed, double 
   return stroke;
 }
 
-using test::complaint;
-using test::says;
+using palpa::test::complaint;
+using palpa::test::says;
 
 std::vector<TextureStroke> strokesOn(const TextureGrid& grid, const Planted& planted,
                                      double seconds, std::uint64_t seed) {

@@ -5,13 +5,13 @@
 #include <random>
 
 #include "calibration/rotation.h"
-#include "complaint.h"
+#include "tests/support/complaint.h"
 
 namespace palpa::calibration {
 namespace {
 
-using test::complaint;
-using test::says;
+using palpa::test::complaint;
+using palpa::test::says;
 
 /// Tilted toward every side by up to `tilt`, or about x only; without noise.
 std::vector<Pose> pivoting(const Vec3& tip, double tilt, bool one_axis = false, int count = 60) {

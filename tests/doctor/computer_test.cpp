@@ -46,6 +46,21 @@ TEST(DoctorsComputer, LoopDiskAndDateAreJudged) {
              "2027-01-01 00:03");
 }
 
+TEST(DoctorsComputer, MonitorsAndWhyThereIsNoWindow) {
+  expectSays(judgeDesktop({"", "", true, {"HDMI-1, 1920x1080 (primary)", "DP-2, 3840x2160"}}),
+             State::well, "1: HDMI-1, 1920x1080 (primary); 2: DP-2, 3840x2160");
+  const Finding wayland =
+      judgeDesktop({"this desktop is Wayland's", "Install the package xwayland", true, {}});
+  expectSays(wayland, State::note, "Wayland");
+  EXPECT_NE(wayland.fix.find("xwayland"), std::string::npos);
+  expectSays(judgeDesktop({"DISPLAY is not set", "Start a desktop", false, {}}), State::absent,
+             "no desktop");
+  expectSays(askDrawing([] {
+               return Drawing{"EGL device", "A", false, {"A", "/dev/dri/card1"}};
+             }),
+             State::well, "--gpu takes 1 (A), 2 (/dev/dri/card1)");
+}
+
 TEST(DoctorsComputer, DrawingAndHeadset) {
   expectSays(askDrawing([] {
                return Drawing{"X11 window", "NVIDIA RTX 4000/PCIe", false};

@@ -51,7 +51,7 @@ class HudRoom : public testing::TestWithParam<Window> {
   }
   void show(const Surroundings& around) {
     hud_.update(someWords(), {{ForceKind::device, Vec3::Zero(), Vec3(1, 0, 0)}}, panel(),
-                GetParam().height, around);
+                textSize_px(GetParam().height), around);
   }
   vtkNew<vtkRenderer> renderer_;
   HudPainter hud_{*renderer_};

@@ -37,6 +37,11 @@ class Window : public testing::Test {
   static bool person(const std::string& does) {
     return std::system(("xdotool " + does).c_str()) == 0;
   }
+  /// The mouse goes there in the first window.
+  static bool mouse(int x, int y) {
+    return person("mousemove --window $(xdotool search --name '" + std::string(kTitle) +
+                  "' | head -1) " + std::to_string(x) + " " + std::to_string(y));
+  }
   /// Polls until `enough`, at most some hundred frames: events take their time through the server.
   template <class Enough>
   ViewInput pollUntil(SceneView& view, Enough enough) {
@@ -76,6 +81,54 @@ TEST_F(Window, OpensAndShowsTheScene) {
   EXPECT_GT(shades.size(), 500u);
 }
 
+/// Two monitors side by side, as a server has them that knows of RandR 1.5.
+class TwoMonitors {
+ public:
+  TwoMonitors() {
+    EXPECT_EQ(std::system("xrandr --setmonitor left 640/160x800/200+0+0 screen > /dev/null && "
+                          "xrandr --setmonitor right 640/160x800/200+640+0 none > /dev/null"),
+              0);
+  }
+  ~TwoMonitors() {
+    EXPECT_EQ(std::system("xrandr --delmonitor left; xrandr --delmonitor right"), 0);
+  }
+};
+
+TEST_F(Window, StandsOnTheMonitorOfOnesChoiceFillsItAndComesBack) {
+  if (std::system("xrandr > /dev/null 2>&1") != 0) GTEST_SKIP() << "no xrandr";
+  const TwoMonitors two;
+  const std::vector<Monitor> all = monitors();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[1].name, "right");
+  EXPECT_EQ(all[1].x, 640);
+  const auto context = makeGlContext(Display::window, {400, 300, false, "right"}, "Second");
+  SceneView view(*context, patient_, {});
+  view.show({});
+  EXPECT_EQ(view.capture().width, 400) << "as large as the window was made";
+  ASSERT_TRUE(context->place());
+  EXPECT_EQ(context->place()->monitor, "right");
+  EXPECT_FALSE(context->place()->full_screen);
+  ASSERT_TRUE(person("mousemove 960 400"));  // over the window's middle
+  ASSERT_TRUE(person("key F11"));
+  pollUntil(view, [&](const ViewInput&) { return context->place()->full_screen; });
+  view.show({});
+  EXPECT_EQ(view.capture().width, 640);
+  EXPECT_EQ(view.capture().height, 800);
+  EXPECT_EQ(context->place()->width, 400) << "where it goes back to";
+  ASSERT_TRUE(person("key F11"));
+  pollUntil(view, [&](const ViewInput&) { return !context->place()->full_screen; });
+  view.show({});
+  EXPECT_EQ(view.capture().width, 400);
+  EXPECT_EQ(view.capture().height, 300);
+  EXPECT_EQ(context->place()->monitor, "right");
+}
+
+TEST_F(Window, BelongsToThePrograms) {
+  EXPECT_EQ(std::system("test \"$(xdotool search --class "
+                        "'^palpa$' | head -1)\""),
+            0);
+}
+
 /// On a connection of its own: nobody polls the window meanwhile.
 TEST_F(Window, TheStopKeyIsHeardPastWhoeverDraws) {
   SceneView view(*context_, patient_, {640, 480, FixedViews::three, true});
@@ -83,7 +136,7 @@ TEST_F(Window, TheStopKeyIsHeardPastWhoeverDraws) {
   const std::unique_ptr<StopKey> key = context_->stopKey();
   ASSERT_TRUE(key);
   ASSERT_GE(key->descriptor(), 0);
-  ASSERT_TRUE(person("mousemove 123 45"));
+  ASSERT_TRUE(mouse(123, 45));
   ASSERT_TRUE(person("key a"));
   ASSERT_TRUE(person("key space"));
   bool pressed = false;
@@ -101,7 +154,7 @@ TEST_F(Window, TheStopKeyIsHeardPastWhoeverDraws) {
 TEST_F(Window, HearsMouseKeysAndWheelAndNoKeyEndsTheProgram) {
   SceneView view(*context_, patient_, {640, 480, FixedViews::three, true});
   view.show({});
-  ASSERT_TRUE(person("mousemove 123 45"));
+  ASSERT_TRUE(mouse(123, 45));
   const ViewInput moved = pollUntil(view, [](const ViewInput& i) { return i.mouse_x == 123; });
   EXPECT_EQ(moved.mouse_x, 123);
   EXPECT_EQ(moved.mouse_y, 45);
@@ -129,7 +182,7 @@ TEST_F(Window, MiddleDragWalksTheVirtualCameraUnlessAProtocolForbidsIt) {
     view.show({});
     const Pose before = view.arGeometry().X_CA;
     const auto at = [&](int x, int y) {
-      EXPECT_TRUE(person("mousemove " + std::to_string(x) + " " + std::to_string(y)));
+      EXPECT_TRUE(mouse(x, y));
       pollUntil(view, [x](const ViewInput& i) { return i.mouse_x == x; });
     };
     at(150, 200);

@@ -87,7 +87,7 @@ void PlainScene::show(const scene::SceneState& state) {
   tool_.update(state.X_AT, state.plunger, state.blood, state.blood_of);
   tool_.show(state.tool);
   arrows_.update(state.forces, state.X_CA, pinhole.fx, kShaft_px * settings_.height / 720.0);
-  hud_.update(state.hud, state.forces, panel_, settings_.height);
+  hud_.update(state.hud, state.forces, panel_, scene::textSize_px(settings_.height));
   for (const auto& view : fixed_) {
     view->tool.update(state.X_AT);
     view->tool.show(state.tool);

@@ -6,9 +6,10 @@
 
 #include "anatomy/base/error.h"
 
-namespace palpa::calibration::test {
+namespace palpa::test {
 
-/// What an estimator says of data that cannot tell the answer; empty when it gave one.
+/// What an estimator says that cannot tell the answer, or anybody who refuses; empty where there is
+/// one.
 template <class F>
 std::string complaint(F f) {
   try {
@@ -25,4 +26,4 @@ inline bool says(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
-}  // namespace palpa::calibration::test
+}  // namespace palpa::test
