@@ -1,5 +1,7 @@
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <optional>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
@@ -16,6 +18,7 @@
 #include "apps/cli/patient_sources.h"
 #include "apps/cli/values.h"
 #include "apps/station/assets.h"
+#include "scene/view/anatomical_plate.h"
 #include "scene/view/contact_sheet.h"
 #include "scene/view/scene_view.h"
 
@@ -257,7 +260,30 @@ namespace {
 struct RenderOptions {
   std::string patient, out = "patient.png";
   int size = 1500;
+  std::string plate;  ///< from where; empty: the page of nine pictures
+  std::optional<double> section_mm;
+  scene::SkinStyle skin = scene::SkinStyle::hidden;
 };
+
+const std::map<std::string, scene::Plane> kPlanes{{"front", scene::Plane::frontal},
+                                                  {"side", scene::Plane::sagittal},
+                                                  {"above", scene::Plane::axial}};
+const std::map<std::string, scene::SkinStyle> kSkins{
+    {"hidden", scene::SkinStyle::hidden},
+    {"solid", scene::SkinStyle::solid},
+    {"translucent", scene::SkinStyle::translucent}};
+
+scene::Image pictureOf(const anatomy::Patient& patient, const RenderOptions& o) {
+  const auto context = scene::makeGlContext(scene::Display::offscreen, o.size, o.size, "Palpa");
+  if (o.plate.empty()) return scene::contactSheet(*context, patient, o.size, o.size);
+  scene::PlateWish wish;
+  wish.plane = kPlanes.at(o.plate);
+  if (o.section_mm) wish.section = 1e-3 * *o.section_mm;
+  wish.skin = o.skin;
+  wish.width = o.size;
+  wish.height = o.size * 3 / 4;
+  return scene::anatomicalPlate(*context, patient, wish);
+}
 
 void render(const RenderOptions& o) {
   const anatomy::Patient patient =
@@ -266,8 +292,7 @@ void render(const RenderOptions& o) {
                 anatomy::readPopulation(station::assetFile("patients/reference.json").string()),
                 anatomy::Side::right, 0))
           : anatomy::readPatient(o.patient);
-  const auto context = scene::makeGlContext(scene::Display::offscreen, o.size, o.size, "Palpa");
-  scene::writePng(scene::contactSheet(*context, patient, o.size, o.size), o.out);
+  scene::writePng(pictureOf(patient, o), o.out);
   std::printf("Written: %s (%s)\n", o.out.c_str(), patient.name.c_str());
 }
 
@@ -276,17 +301,39 @@ void render(const RenderOptions& o) {
 void addRender(CLI::App& program) {
   const auto o = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand(
-      "render", "A patient on one page: solid, translucent, bones and vessels, from three sides");
+      "render",
+      "A patient on one page: solid, translucent, bones and vessels, from three sides; or as a "
+      "plate to print, with names, cut where one likes");
   command->footer(
-      "Example:\n  palpa render --patient p.glb --out p.png      (without a file: the reference "
-      "patient)");
+      "Examples:\n  palpa render --patient p.glb --out p.png      (without a file: the reference "
+      "patient)\n  palpa render --plate front --out plate.png\n  palpa render --plate above "
+      "--section 40 --skin solid --out cut.png");
   command->add_option("--patient", o->patient, "Patient file (.glb)")
       ->type_name("FILE")
       ->check(somethingThere("patients"));
   command->add_option("--out", o->out, "Picture to write (.png)")->type_name("FILE");
-  command->add_option("--size", o->size, "Pixels a side")->check(inRange(300, 8192));
+  command->add_option("--size", o->size, "Pixels a side; of a plate across")
+      ->check(inRange(300, 8192));
+  command->add_option("--plate", o->plate, "Instead: a plate to print, seen from there")
+      ->check(oneOf(keysOf(kPlanes)))
+      ->type_name("above|front|side");
+  command
+      ->add_option("--section", o->section_mm,
+                   "Of a plate: cut so far behind the entry point (negative: before it), mm")
+      ->check(inRange(-1000.0, 1000.0, "mm"));
+  command
+      ->add_option_function<std::string>(
+          "--skin", [o](const std::string& text) { o->skin = kSkins.at(text); },
+          "Of a plate: skin and muscle (default hidden)")
+      ->check(oneOf(keysOf(kSkins)))
+      ->type_name("hidden|solid|translucent");
   addGpuArgument(*command);
-  command->callback([o] { render(*o); });
+  command->callback([o, command] {
+    for (const char* option : {"--section", "--skin"})
+      if (o->plate.empty() && command->count(option) > 0)
+        throw UsageError("goes with --plate only", option, "Add --plate front, side or above");
+    render(*o);
+  });
 }
 
 }  // namespace palpa::cli

@@ -103,6 +103,13 @@ Eigen::AlignedBox3d boxOf(const std::vector<const anatomy::TriangleMesh*>& meshe
   return box;
 }
 
+std::vector<const anatomy::TriangleMesh*> skinsOf(const anatomy::Patient& patient) {
+  std::vector<const anatomy::TriangleMesh*> skins;
+  for (const anatomy::OrganSurface& organ : patient.organs)
+    if (organ.organ == Organ::skin) skins.push_back(&organ.mesh);
+  return skins;
+}
+
 /// Full in the middle, nothing at the rim of the square: a round patch without an edge.
 double patch(double u, double v) {
   const double r = 2 * std::hypot(u - 0.5, v - 0.5);
@@ -125,18 +132,22 @@ std::vector<std::uint8_t> pictureOf(const GroundShade& shade) {
 
 }  // namespace
 
+std::optional<TableTop> tableUnder(const anatomy::Patient& patient) {
+  const Eigen::AlignedBox3d box = boxOf(skinsOf(patient));
+  if (box.isEmpty()) return std::nullopt;
+  return TableTop{
+      {box.center().x(), box.center().z()}, box.max().y(), 0.9 * box.sizes().maxCoeff() + 0.1};
+}
+
 Table::Table(vtkRenderer& renderer, const anatomy::Patient& patient) : sheet_(renderer) {
-  std::vector<const anatomy::TriangleMesh*> skins;
-  for (const anatomy::OrganSurface& organ : patient.organs)
-    if (organ.organ == Organ::skin) skins.push_back(&organ.mesh);
-  const Eigen::AlignedBox3d box = boxOf(skins);
-  if (box.isEmpty()) return;
-  const double y = box.max().y(), half = 0.9 * box.sizes().maxCoeff() + 0.1;
-  const Eigen::Vector2d middle(box.center().x(), box.center().z());
+  const std::optional<TableTop> top = tableUnder(patient);
+  if (!top) return;
+  const auto [middle, y, half] = *top;
   sheet_.lay(1, 1, [&](double u, double v) {
-    return Vec3(middle.x() + (2 * u - 1) * half, y, middle.y() + (2 * v - 1) * half);
+    return Vec3(top->middle.x() + (2 * u - 1) * top->half, top->y,
+                top->middle.y() + (2 * v - 1) * top->half);
   });
-  const GroundShade shade = groundShade(skins, y, middle, half);
+  const GroundShade shade = groundShade(skinsOf(patient), y, middle, half);
   sheet_.dye(shade.texels, shade.texels, pictureOf(shade));
   laid_ = true;
 }

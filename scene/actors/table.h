@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "anatomy/patient.h"
@@ -26,6 +27,14 @@ struct GroundShade {
 /// they touch. A picture of a shadow, [chosen] by eye, not a computation of light.
 GroundShade groundShade(const std::vector<const anatomy::TriangleMesh*>& meshes, double table_y,
                         const Eigen::Vector2d& middle, double half);
+
+/// The plane under a patient's skin (up is -y of A), and the square of it that is a table.
+struct TableTop {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< x, z
+  double y = 0, half = 0.4;
+};
+/// Nothing for a patient without a skin.
+std::optional<TableTop> tableUnder(const anatomy::Patient& patient);
 
 /// What a patient lies on where there is no camera's picture: a plane through the lowest point
 /// (up is -y of A), with the shadow; it fades out into the background.

@@ -26,10 +26,11 @@ constexpr double kAzimuth = 18 * kDegree;   // toward the punctured side
 constexpr double kToolReach = 0.30;         // metres from the tip: the syringe, an arrow at its end
 constexpr double kEyesApart = 0.063;        // metres, the mean of adults (Dodgson 2004)
 constexpr double kNearestFocus = 0.1;
-constexpr double kNearestThing = 0.05;  // m from the camera, of what is real
-constexpr double kShadowHalf_px = 2;    // the least half-width of a shadow, likewise
-constexpr double kShaft_px = 5;         // an arrow's shaft in a window 720 pixels high
-constexpr double kPin_px = 11;          // a pin's head, likewise
+constexpr double kNearestThing = 0.05;   // m from the camera, of what is real
+constexpr double kNearestToEyes = 0.02;  // m, in a room
+constexpr double kShadowHalf_px = 2;     // the least half-width of a shadow, likewise
+constexpr double kShaft_px = 5;          // an arrow's shaft in a window 720 pixels high
+constexpr double kPin_px = 11;           // a pin's head, likewise
 
 OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
   const double azimuth = patient.side == anatomy::Side::right ? -kAzimuth : kAzimuth;
@@ -82,6 +83,8 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
   if (layout.skin_deflection && organs_.skin())
     skin_ = std::make_unique<DeflectedSkin>(seenSkin(patient)->mesh, *organs_.skin());
   setUpRenderers();
+  if (stereo_ == Stereo::headset && !see_through_)
+    room_ = std::make_unique<Room>(*renderer_, patient);
   if (stereo_ == Stereo::headset)
     second_ =
         std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *on_skin_, *above_);
@@ -128,6 +131,7 @@ void ArView::update(const SceneState& state) {
 }
 
 void ArView::chooseCamera(const SceneState& state) {
+  in_room_ = room_ && !state.picture;
   virtual_ = !state.registered && state.picture == nullptr;
   if (virtual_) {
     picture_ = panel_;
@@ -186,6 +190,7 @@ void ArView::lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& b
       setViewport(*renderer, where, window_width_, window_height_);
   DepthRange range = depthRangeOf(
       {{eye.X_CA * region_.whole_centre_A, region_.whole_radius}, {eye.X_CA * tip_A_, kToolReach}});
+  if (in_room_) range = {kNearestToEyes, Room::kReach};
   if (real_things_)
     range.near = std::min(range.near, kNearestThing);  // they stand anywhere before the patient
   aim(*behind.GetActiveCamera(), eye.camera, eye.X_CA, range);
@@ -247,7 +252,8 @@ void ArView::showNeedleLine(const SceneState& state, bool visible) {
 
 void ArView::showPatient(const SceneState& state, bool visible) {
   if (skin_) skin_->update(state.skin_push);
-  table_.setVisible(visible && virtual_ && !see_through_);
+  table_.setVisible(visible && (virtual_ || in_room_) && !see_through_);
+  if (room_) room_->setVisible(in_room_);
   shadows_.update(state, visible,
                   {X_CA_.inverse().translation(), kShadowHalf_px * lineUnit_px() / pinhole_.fx});
   organs_.setStyle(state.skin);

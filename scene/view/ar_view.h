@@ -10,6 +10,7 @@
 #include "scene/actors/lines.h"
 #include "scene/actors/needle_line.h"
 #include "scene/actors/organ_actors.h"
+#include "scene/actors/room.h"
 #include "scene/actors/search_overlay.h"
 #include "scene/actors/table.h"
 #include "scene/actors/tool_shadow.h"
@@ -91,13 +92,14 @@ class ArView {
   std::array<EyeCamera, 2> eyes_;
   std::array<Rect, 2> eye_panels_;
   Vec3 tip_A_ = Vec3::Zero();
-  bool virtual_ = true;
+  bool virtual_ = true, in_room_ = false;
   bool real_things_ = false;
   bool shows_patient_ = true;
   OrbitCamera orbit_;
   Pinhole pinhole_;
   Pose X_CA_ = Pose::Identity();
   Table table_;
+  std::unique_ptr<Room> room_;  ///< null but before eyes that see nothing else
   Glass glass_;
   OrganActors organs_;
   std::unique_ptr<DeflectedSkin> skin_;  // null: it does not give way

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "anatomy/parametric/parametric_patient.h"
+#include "scene/view/anatomical_plate.h"
 #include "scene/view/contact_sheet.h"
 #include "scene/view/scene_view.h"
 #include "tests/scene/offscreen.h"
@@ -69,6 +70,22 @@ SceneState with(Change change) {
   return state;
 }
 
+/// Before the table, both eyes on the entry point, nothing real to be seen.
+SceneState standing() {
+  return with([](SceneState& s) {
+    const Vec3 entry_A = s.X_AT.translation();
+    s.picture = nullptr;
+    std::array<EyeCamera, 2> eyes;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vec3 apart((i == 0 ? -1 : 1) * 0.032, 0, 0);
+      eyes[i] = {{2 * kLook_px, 2 * kLook_px, 300, 300, kLook_px - 0.5, kLook_px - 0.5},
+                 lookAt(entry_A + Vec3(0, -0.55, -0.75) + apart, entry_A + apart)};
+    }
+    s.X_CA = eyes[0].X_CA;
+    s.eyes = eyes;
+  });
+}
+
 std::vector<Look> looks() {
   static const anatomy::TriangleMesh hand = test::sphere({0, 0, 0}, {0.03, 0.02, 0.05});
   const Vec3 entry_A = patientOf(anatomy::Side::right).landmark(anatomy::landmark::kEntry),
@@ -82,6 +99,8 @@ std::vector<Look> looks() {
   ViewLayout safe{kLook_px, kLook_px, FixedViews::none, true},
       all{3 * kLook_px, 2 * kLook_px, FixedViews::three, true};
   safe.force_colours = ForceColours::safe;
+  ViewLayout worn{4 * kLook_px, 2 * kLook_px, FixedViews::none, false};
+  worn.stereo = Stereo::headset;
   return {
       {"skin-translucent", registered()},
       {"skin-solid", with([](SceneState& s) { s.skin = SkinStyle::solid; })},
@@ -141,6 +160,7 @@ std::vector<Look> looks() {
        })},
       {"not-registered", with([](SceneState& s) { s.registered = false; })},
       {"all-views", registered(), anatomy::Side::right, all},
+      {"headset", standing(), anatomy::Side::right, worn},
   };
 }
 
@@ -169,6 +189,17 @@ INSTANTIATE_TEST_SUITE_P(Every, Looks, testing::ValuesIn(looks()), [](const auto
 TEST(Looks, ContactSheetLikeItsBaseline) {
   test::expectLooksLike(toBgr(contactSheet(offscreen(), patientOf(anatomy::Side::right), 600, 600)),
                         "contact-sheet");
+}
+
+TEST(Looks, PlateLikeItsBaseline) {
+  PlateWish wish;
+  wish.width = 600;
+  wish.height = 450;
+  wish.plane = Plane::axial;
+  wish.section = 0.03;
+  wish.skin = SkinStyle::solid;
+  test::expectLooksLike(toBgr(anatomicalPlate(offscreen(), patientOf(anatomy::Side::right), wish)),
+                        "plate");
 }
 
 /// The comparison sees what a person would see.
