@@ -11,6 +11,7 @@ set(PALPA_LOADED_INSTALLED lib/palpa)
 set(CMAKE_INSTALL_RPATH $ORIGIN/../${PALPA_LOADED_INSTALLED})
 
 option(PALPA_TESTS "Build the tests" ON)
+option(PALPA_FULL "Tests have the time that every stated count takes" OFF)
 option(PALPA_WERROR "Treat warnings as errors" OFF)
 set(PALPA_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
 set(PALPA_PREBUILT "" CACHE PATH

@@ -11,7 +11,7 @@ namespace palpa::console {
 
 struct ConsoleSettings {
   ConsolePlace place;
-  std::string station;  ///< file of the station in use from now on; empty: as before
+  std::string station;  ///< file, in use from now on for what it is for; empty: as before
   std::string address = "127.0.0.1";
   int port = 0;                    ///< 0: any that is free
   std::string token;               ///< needed for any other address than this computer's own

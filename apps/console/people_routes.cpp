@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
@@ -158,12 +159,22 @@ json studies(Console& c) {
   return all;
 }
 
+/// Where its blocks are held. One command leads through them, with one station; where they need
+/// several, each is held on the virtual bench of its kind.
+std::set<StationKind> stationKindsOf(const study::Protocol& protocol) {
+  std::set<StationKind> kinds;
+  for (const study::Session& session : protocol.sessions)
+    for (const study::Block& block : session.blocks) kinds.insert(stationKindOf(block.engine));
+  return kinds;
+}
+
 /// The next block of somebody: the command enrols, draws and leads; its condition is nobody's to
 /// see.
 std::string runStudy(Console& c, const std::string& id, const json& body) {
   SessionWish wish;
   wish.protocol = protocolFile(id).string();
-  wish.blind = study::readProtocol(wish.protocol).blind_educator;
+  const study::Protocol protocol = study::readProtocol(wish.protocol);
+  wish.blind = protocol.blind_educator;
   wish.task = id;
   wish.trainee = wordsIn(body, "trainee");
   if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty())
@@ -171,12 +182,14 @@ std::string runStudy(Console& c, const std::string& id, const json& body) {
   wish.performer = wordsIn(body, "operator");
   if (wish.performer != "person" && wish.performer != "expert" && wish.performer != "novice")
     throw UsageError("is not person, expert or novice", "who performs", "Choose one of them");
-  wish.simulated = isSimulated(c, wish.performer);
+  const std::set<StationKind> kinds = stationKindsOf(protocol);
+  wish.simulated = std::any_of(kinds.begin(), kinds.end(), [&](StationKind kind) {
+    return isSimulated(c.place, kind, wish.performer);
+  });
   std::vector<std::string> arguments{"study",     "run",          "--protocol", wish.protocol,
                                      "--trainee", wish.trainee,   "--operator", wish.performer,
                                      "--records", c.place.records};
-  if (const std::string chosen = stationOf(c.place); !chosen.empty())
-    arguments.insert(arguments.end(), {"--station", chosen, "--bench-seed", "1"});
+  if (kinds.size() == 1) addStation(c.place, *kinds.begin(), &arguments);
   return c.sessions.begin(wish, std::move(arguments));
 }
 

@@ -1,11 +1,7 @@
 #include "apps/console/place.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "anatomy/base/error.h"
-#include "anatomy/base/json_file.h"
-#include "anatomy/base/whole_file.h"
 #include "apps/console/guard.h"
 #include "apps/runtime/clock.h"
 
@@ -33,21 +29,6 @@ bool isShown(const std::string& name) {
   return name.size() > 9 && name.rfind("view-", 0) == 0 &&
          name.compare(name.size() - 4, 4, ".png") == 0 &&
          plainName(name.substr(0, name.size() - 4));
-}
-
-std::string stationOf(const ConsolePlace& place) {
-  std::error_code none;
-  if (!std::filesystem::exists(place.settings(), none)) return "";
-  const JsonFile file(place.settings());
-  if (!file.json().is_object())
-    throw UsageError("holds no settings", place.settings().string(),
-                     "Restore it, or remove it and calibrate again");
-  const std::string chosen = file.has("station") ? file.text("station") : "";
-  return std::filesystem::exists(chosen, none) ? chosen : "";
-}
-
-void chooseStation(const ConsolePlace& place, const std::string& file) {
-  writeWhole(place.settings(), nlohmann::json{{"station", file}}.dump(1) + "\n");
 }
 
 }  // namespace palpa::console

@@ -32,9 +32,4 @@ using runtime::utcNow;
 /// not handed out.
 bool isShown(const std::string& name);
 
-/// The station file in use (settings); empty: the virtual bench. And choosing another, kept over
-/// restarts.
-std::string stationOf(const ConsolePlace& place);
-void chooseStation(const ConsolePlace& place, const std::string& file);
-
 }  // namespace palpa::console

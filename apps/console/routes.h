@@ -8,9 +8,9 @@
 #include "apps/console/jobs.h"
 #include "apps/console/place.h"
 #include "apps/console/sessions.h"
+#include "apps/console/stations.h"
 #include "apps/console/web_server.h"
 #include "apps/live/live_sink.h"
-#include "apps/station/station_file.h"
 
 namespace palpa::console {
 
@@ -43,10 +43,6 @@ void addLiveRoutes(WebServer& server, Console& console);     ///< events and pic
 void addReplayRoutes(WebServer& server, Console& console);   ///< a trial on one timeline
 
 void checkHealth(Console& console);
-/// The station in use. Throws Error for a damaged file.
-station::Station stationNow(const Console& console);
-/// What comes of it is simulated: because of who performs, or of where.
-bool isSimulated(const Console& console, const std::string& performer);
 
 /// A whole file as an answer; 404 where it is none.
 void sendFile(httplib::Response& response, const std::filesystem::path& file,

@@ -76,16 +76,15 @@ using nlohmann::json;
 
 std::vector<std::string> sessionCommand(const Console& c, const SessionWish& wish) {
   const TaskChoice task = taskChoice(wish.task);
-  if (wish.performer == "person" && !c.place.display && stationOf(c.place).empty())
+  const StationKind kind = stationKindOf(task.engine);
+  if (wish.performer == "person" && !c.place.display && stationFile(c.place, kind).empty())
     throw UsageError("needs a window at the station, and there is no display",
                      "a person on the virtual bench", "Choose a simulated expert or novice");
   std::vector<std::string> a = argumentsOf(task, wish);
   if (wish.performer != "person" || !c.place.display) a.insert(a.end(), {"--display", "offscreen"});
   if (!wish.trainee.empty())
     a.insert(a.end(), {"--trainee", wish.trainee, "--records", c.place.records});
-  if (const std::string chosen = stationOf(c.place); !chosen.empty())
-    a.insert(a.end(), {"--station", chosen, "--bench-seed",
-                       "1"});  // calibrated from here: with the bench's first seed
+  addStation(c.place, kind, &a);
   return a;
 }
 
@@ -141,7 +140,8 @@ void addSessionRoutes(WebServer& server, Console& c) {
              [&c](const httplib::Request&, httplib::Response& r) { answer(r, c.sessions.list()); });
   server.Post("/api/sessions", [&c](const httplib::Request& q, httplib::Response& r) {
     SessionWish wish = readWish(bodyOf(q));
-    wish.simulated = isSimulated(c, wish.performer);
+    wish.simulated =
+        isSimulated(c.place, stationKindOf(taskChoice(wish.task).engine), wish.performer);
     if (c.sessions.oneRuns())
       return refuse(r, 409, "a session is running already: end it first, or wait until it is over");
     answer(r, {{"id", c.sessions.begin(wish, sessionCommand(c, wish))}}, 201);

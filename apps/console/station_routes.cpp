@@ -5,7 +5,6 @@
 #include "anatomy/base/whole_file.h"
 #include "apps/console/jobs.h"
 #include "apps/console/routes.h"
-#include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
 namespace palpa::console {
@@ -24,9 +23,9 @@ constexpr CalibrationStep kSteps[] = {
     {"workspace", "Device",
      "Touch the points of the grid one after the other; this measures how the device errs from "
      "place to place."},
-    {"tool", "Needle",
-     "Rest the needle's tip in one place and pivot it; then spin it about itself. This finds the "
-     "tip and the direction."},
+    {"tool", "Needle or probe",
+     "Rest the tip in one place and pivot the tool; then spin it about itself. This finds the tip "
+     "and the direction."},
     {"registration", "Where the device stands",
      "Touch the marked points on the board. This ties what is felt to what is seen."},
     {"latency", "Delay between seen and felt",
@@ -38,18 +37,31 @@ constexpr CalibrationStep kSteps[] = {
 
 std::string textIn(const fs::path& file) { return readWhole(file).value_or(""); }
 
+/// A station as the pages take it: what it is for, and whether what is done there is scored.
+json described(const Console& c, StationKind kind) {
+  json one{{"kind", nameOf(kind)}, {"for", titleOf(kind)}};
+  try {
+    const station::Station station = stationNow(c.place, kind);
+    one["title"] = station.title;
+    one["simulated"] = station.simulated;
+    one["measured"] = !station.calibrations.empty();
+    one["trouble"] = station.calibrationProblem();
+  } catch (const Error& e) {
+    one["title"] = titleOf(kind);
+    one["simulated"] = false;
+    one["measured"] = false;
+    one["trouble"] = e.what();
+  }
+  return one;
+}
+
 json me(const Console& c, bool entered) {
   json all{{"version", c.place.version}, {"entered", entered}, {"page_key", c.guard.pageKey()}};
   if (!entered) return all;
   all["display"] = c.place.display;
   all["records"] = c.place.records;
-  try {
-    const station::Station station = stationNow(c);
-    all["station"] = station.title;
-    all["simulated"] = station.simulated;
-  } catch (const Error& e) {
-    all["station_trouble"] = e.what();
-  }
+  all["stations"] = json::array();
+  for (const StationKind kind : kStationKinds) all["stations"].push_back(described(c, kind));
   return all;
 }
 
@@ -66,16 +78,34 @@ json health(Console& c) {
   return all;
 }
 
-json calibration(Console& c) {
+/// Whether this station has what the step touches or looks at.
+bool takes(const station::Station& station, const std::string& step) {
+  if (step == "workspace") return !station.grid.empty();
+  if (step == "tool" || step == "registration") return !station.landmarks.empty();
+  if (step == "latency") return station.marker.has_value();
+  if (step == "force-sensor") return station.force_sensor.has_value();
+  return true;
+}
+
+/// Whether all that `palpa calibrate all` does can be done there; a sensor only where there is one.
+bool takesAll(const station::Station& station) {
+  return std::all_of(std::begin(kSteps), std::end(kSteps), [&](const CalibrationStep& step) {
+    return takes(station, step.id) || step.id == std::string("force-sensor");
+  });
+}
+
+json calibration(Console& c, StationKind kind) {
   json all{{"job", c.jobs.workingOn("calibrate")},
+           {"kind", nameOf(kind)},
+           {"stations", json::array()},
            {"steps", json::array()},
            {"calibrations", json::array()}};
-  const std::string chosen = stationOf(c.place);
-  all["file"] = chosen;
-  const station::Station station = stationNow(c);
+  for (const StationKind one : kStationKinds) all["stations"].push_back(described(c, one));
+  const station::Station station = stationNow(c.place, kind);
   for (const CalibrationStep& step : kSteps)
-    if (station.force_sensor || std::string(step.id) != "force-sensor")
+    if (takes(station, step.id))
       all["steps"].push_back({{"id", step.id}, {"title", step.title}, {"what", step.what}});
+  all["all"] = takesAll(station);
   all["station"] = station.title;
   all["verdict"] = station.calibration_verdict;
   for (const auto& one : station.calibrations)
@@ -86,43 +116,36 @@ json calibration(Console& c) {
   return all;
 }
 
-/// A calibration that left a station file makes it the station in use.
-std::string calibrate(Console& c, const std::string& step) {
+/// A calibration that left a station file makes it the station of its kind.
+std::string calibrate(Console& c, StationKind kind, const std::string& step) {
   const CalibrationStep* const found =
       std::find_if(std::begin(kSteps), std::end(kSteps),
                    [&](const CalibrationStep& one) { return step == one.id; });
   if (step != "all" && found == std::end(kSteps))
     throw UsageError("is not a calibration step", step.substr(0, 32), "Choose one from the list");
+  const station::Station station = stationNow(c.place, kind);
+  if (step == "all" ? !takesAll(station) : !takes(station, step))
+    throw UsageError("cannot be done at this station", step, "Choose one from the list");
   if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
   JobRequest request;
   request.key = "calibrate";
   request.title = step == "all" ? "Everything" : found->title;
   const fs::path place = c.place.home / "stations" / newId();
   request.picture = "camera.jpg";
-  request.arguments = {"calibrate",    step,      "--out",
-                       place.string(), "--watch", "{}/" + request.picture};
+  request.arguments = {"calibrate", step,
+                       "--out",     place.string(),
+                       "--watch",   "{}/" + request.picture,
+                       "--station", stationPath(c.place, kind).string()};
   request.page = (place / "calibration.html").string();
-  if (const std::string chosen = stationOf(c.place); !chosen.empty())
-    request.arguments.insert(request.arguments.end(), {"--station", chosen});
-  request.then = [&c, place](const fs::path&, bool good) {
+  request.then = [&c, kind, place](const fs::path&, bool good) {
     std::error_code none;
     if (good && fs::exists(place / "station.json", none))
-      chooseStation(c.place, (place / "station.json").string());
+      chooseStation(c.place, kind, (place / "station.json").string());
   };
   return c.jobs.add(std::move(request));
 }
 
 }  // namespace
-
-station::Station stationNow(const Console& c) {
-  const std::string chosen = stationOf(c.place);
-  return station::readStation(chosen.empty() ? station::assetFile("stations/virtual_bench.json")
-                                             : fs::path(chosen));
-}
-
-bool isSimulated(const Console& c, const std::string& performer) {
-  return performer != "person" || stationNow(c).simulated;
-}
 
 void sendFile(httplib::Response& response, const fs::path& file, const std::string& type) {
   std::error_code none;
@@ -144,7 +167,7 @@ void checkHealth(Console& c) {
   request.title = "Check of the station";
   request.arguments = {"doctor",        "--json", "--records",
                        c.place.records, "--out",  c.place.sessions().string()};
-  if (const std::string chosen = stationOf(c.place); !chosen.empty())
+  if (const std::string chosen = stationFile(c.place, StationKind::needle); !chosen.empty())
     request.arguments.insert(request.arguments.end(), {"--station", chosen});
   request.then = [&c](const fs::path& folder, bool) {
     const std::string text = textIn(folder / "log.txt");
@@ -188,14 +211,19 @@ void addStationRoutes(WebServer& server, Console& c) {
     checkHealth(c);
     answer(r, json::object(), 202);
   });
-  server.Get("/api/calibration",
-             [&c](const httplib::Request&, httplib::Response& r) { answer(r, calibration(c)); });
+  server.Get("/api/calibration", [&c](const httplib::Request& q, httplib::Response& r) {
+    const std::string kind = q.get_param_value("kind");
+    answer(r, calibration(c, kind.empty() ? StationKind::needle : stationKindNamed(kind)));
+  });
   server.Post("/api/calibration", [&c](const httplib::Request& q, httplib::Response& r) {
     const json body = bodyOf(q);
+    const auto word = [&](const char* field) {
+      return body.value(field, json()).is_string() ? body[field].get<std::string>() : "";
+    };
+    const std::string kind = word("kind");
     answer(r,
-           {{"job",
-             calibrate(c, body.value("step", json()).is_string() ? body["step"].get<std::string>()
-                                                                 : "")}},
+           {{"job", calibrate(c, kind.empty() ? StationKind::needle : stationKindNamed(kind),
+                              word("step"))}},
            202);
   });
   server.Get(R"(/api/jobs/([A-Za-z0-9_-]{1,64}))",

@@ -4,6 +4,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
+#include "apps/console/stations.h"
 #include "apps/station/assets.h"
 #include "apps/station/material_files.h"
 
@@ -98,6 +99,7 @@ json described(const TaskChoice& task) {
           {"engine", training::nameOf(task.engine)},
           {"about", task.real_lump ? kAboutRealLump : kind.about},
           {"options", options},
+          {"station", nameOf(stationKindOf(task.engine))},
           {"surfaces", surfacesOf(task)},
           {"assessable", true},
           {"by_mouse", kind.person_by_mouse}};

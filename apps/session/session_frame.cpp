@@ -96,6 +96,23 @@ void runTimed(runtime::Executive& executive, SessionCost* cost) {
   cost->run_ns = os::processorTime_ns() - cost->started_ns;
 }
 
+/// Somebody else at the station (SessionOptions::meanwhile).
+class Meanwhile final : public runtime::Activity {
+ public:
+  Meanwhile(const SessionOptions& options, trial::Channels& channels, runtime::StopSwitch& stop)
+      : options_(options), channels_(channels), stop_(stop) {}
+  const char* name() const override { return "meanwhile"; }
+  std::int64_t step(std::int64_t now_ns) override {
+    options_.meanwhile(now_ns, channels_, stop_);
+    return now_ns + 10 * runtime::kMillisecond;
+  }
+
+ private:
+  const SessionOptions& options_;
+  trial::Channels& channels_;
+  runtime::StopSwitch& stop_;
+};
+
 /// While it lives, a window that is gone ends the session and not the program.
 class WindowWatch {
  public:
@@ -245,6 +262,9 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   executive_->add(progress, {7, false, false});
   executive_->add(watch, {8, false, false});
   if (stop_key) executive_->add(*stop_key, {9, false, false});
+  std::optional<Meanwhile> meanwhile;
+  if (options_.meanwhile && mode_ == runtime::TimeMode::virtual_time)
+    executive_->add(meanwhile.emplace(options_, channels_, bus_.stop), {10, false, false});
   igtl.addTo(*executive_);
   executive_->whenStuck(
       [&](const runtime::Executive::Stuck& stuck, const std::string& failure) {

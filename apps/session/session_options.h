@@ -17,6 +17,13 @@ namespace palpa::station {
 struct Station;
 }
 
+namespace palpa::runtime {
+class StopSwitch;
+}
+namespace palpa::trial {
+struct Channels;
+}
+
 namespace palpa::session {
 
 enum class OperatorKind {
@@ -90,7 +97,9 @@ struct SessionOptions {
   bool demonstration = true;    ///< a person first watches an expert's recorded trial
   bool familiarisation = true;  ///< and then tries once, unscored
   scene::Display display = scene::Display::automatic;
-  scene::WindowPlace window = {};         ///< width 0: as it was left last
+  scene::WindowPlace window = {};  ///< width 0: as it was left last
+  /// Somebody else at the station, in virtual time: asked a hundred times a second.
+  std::function<void(std::int64_t now_ns, trial::Channels&, runtime::StopSwitch&)> meanwhile = {};
   bool headset = false;                   ///< beside the desktop's view
   std::string camera, intrinsics, board;  ///< recorded pictures instead of the station's camera
   std::string expert_path;                ///< overrides the task's

@@ -80,9 +80,19 @@ void Operator::begin(NeedleStep step, double now_s, double pause_s) {
 
 void Operator::beginTrial(int trial, double now_s) {
   trial_ = trial;
-  passes_ = nudges_ = 0;
-  going_back_ = false;
+  passes_ = 0;
   plan_.begin(trial);
+  approach(now_s);
+}
+
+/// The same trial, after a pause in which he has left the skin.
+void Operator::goOn(double now_s) {
+  if (step_ == NeedleStep::rest) approach(now_s);
+}
+
+void Operator::approach(double now_s) {
+  interrupted_ = going_back_ = false;
+  nudges_ = 0;
   entry_seen_A_ = plan_.entry_A();
   moveTo(needleAt(plan_.entry_A() + kAbove * plan_.normal_A(), -plan_.normal_A()), now_s,
          skill_.travel_speed);
@@ -196,8 +206,10 @@ void Operator::think(const Senses& senses) {
   if (!senses.seen || !bearings_.taken()) return;
   running_ = senses.seen->running;
   if (running_ && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
+  interrupted_ |= !running_;
   if (!running_ && step_ != NeedleStep::rest && step_ != NeedleStep::leave)
     return begin(NeedleStep::leave, now_s, skill_.pause);
+  if (running_ && interrupted_) goOn(now_s);
   if (!reaction_.seen().asks) told_ = false;
   if (now_s < ready_s_) return;
   step(now_s);

@@ -51,6 +51,8 @@ class Operator final : public Hand {
   void leaving(double now_s);
   void begin(NeedleStep step, double now_s, double pause_s);
   void beginTrial(int trial, double now_s);
+  void goOn(double now_s);
+  void approach(double now_s);
   void moveTo(const Pose& X_AT, double now_s, double speed);
   void aimAt(const Vec3& axis_A, double now_s, double duration_s);
   void pushing(double now_s);
@@ -83,7 +85,7 @@ class Operator final : public Hand {
   NeedleStep step_ = NeedleStep::rest;
   double ready_s_ = 0;  ///< the current step's pause is over
   int trial_ = 0;
-  bool running_ = false;
+  bool running_ = false, interrupted_ = false;  ///< paused or over, and not by his own word
   int passes_ = 0;
   bool gives_up_ = false;
   Vec3 tip_A_ = Vec3::Zero(), axis_A_ = Vec3::UnitZ();  ///< wanted

@@ -3,7 +3,7 @@
 import { get, post, url } from "./api.js";
 import { announce, h, put } from "./dom.js";
 import { day, plural } from "./format.js";
-import { badge, button, notice, progress, simulatedBadge } from "./parts.js";
+import { badge, button, notice, progress, radios, simulatedBadge } from "./parts.js";
 import { reportFrame } from "./report_frame.js";
 
 function toneOf(verdict) {
@@ -114,20 +114,55 @@ async function follow(life, job, place, done) {
   });
 }
 
-export async function show({ root, life, open }) {
+function stateOf(station) {
+  const good = station.measured ? "calibrated" : "not measured yet, scored by its file";
+  return `${station.title}: ${station.trouble || good}`;
+}
+
+/** Which station: each is calibrated by itself. Made once, so that the keyboard's place stays. */
+function chooser(stations, kind, choose) {
+  const choice = radios(
+    "Station",
+    stations.map((s) => [s.kind, s.for, stateOf(s)]),
+    kind,
+    () => choose(choice.value()),
+  );
+  return {
+    node: choice.node,
+    tell(now) {
+      for (const [at, hint] of [...choice.node.querySelectorAll(".hint")].entries())
+        put(hint, stateOf(now[at]));
+    },
+  };
+}
+
+export async function show({ root, life, open, query }) {
   open("Calibrate");
-  const head = h("div", {}),
+  const choice = h("div", {}),
+    head = h("div", {}),
     work = h("div", { id: "calibration-work" }),
     list = h("div", {});
-  root.append(head, work, list);
+  root.append(choice, head, work, list);
+  let kind = query.get("station") || "needle",
+    stationChoice = null;
   const run = async (id) => {
-    const started = await post("/api/calibration", { step: id });
+    const started = await post("/api/calibration", { kind, step: id });
     window.scrollTo(0, 0);
     announce("The calibration has started.");
     follow(life, started.job, work, draw);
   };
   const draw = async () => {
-    const all = await get("/api/calibration");
+    const all = await get(`/api/calibration?kind=${encodeURIComponent(kind)}`);
+    const stations = all.stations || [];
+    if (stationChoice) {
+      stationChoice.tell(stations);
+    } else {
+      stationChoice = chooser(stations, kind, (other) => {
+        kind = other;
+        draw();
+      });
+      put(choice, stationChoice.node);
+    }
     const made = new Map((all.calibrations || []).map((c) => [c.name, c]));
     put(
       head,
@@ -136,7 +171,8 @@ export async function show({ root, life, open }) {
         "p",
         { class: "muted" },
         "Each step takes a minute or less. " +
-          "What a step measures replaces what was there only when it is good enough.",
+          "What a step measures replaces what was there only when it is good enough." +
+          (all.all ? "" : " The other steps need points to touch, which this station has not."),
       ),
     );
     const others = (all.calibrations || []).filter(
@@ -148,7 +184,7 @@ export async function show({ root, life, open }) {
         "div",
         { class: "row between" },
         h("h2", {}, "Steps"),
-        button("Run all steps", () => run("all"), { class: "primary" }),
+        all.all ? button("Run all steps", () => run("all"), { class: "primary" }) : null,
       ),
       h(
         "ol",

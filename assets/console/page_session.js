@@ -1,6 +1,6 @@
 // A new session: a few choices, all with a default. When one is on already, it is shown instead.
 import { list, post } from "./api.js";
-import { h } from "./dom.js";
+import { h, put } from "./dom.js";
 import { isOn, taskName } from "./format.js";
 import { choice, during, field, notice, offer, radios, tick } from "./parts.js";
 
@@ -23,6 +23,28 @@ const number = (value, low, high) =>
     step: 1,
     inputmode: "numeric",
   });
+
+/** Where the task is held, and whether what is done there is scored. */
+function stationWords(place) {
+  if (!place) return "";
+  const calibrate = (words) =>
+    h("a", { href: `#/calibrate?station=${encodeURIComponent(place.kind)}` }, words);
+  return place.trouble
+    ? [
+        "Held at: ",
+        place.title,
+        ". Trials are not scored: ",
+        place.trouble,
+        ". ",
+        calibrate("Calibrate it"),
+      ]
+    : [
+        "Held at: ",
+        place.title,
+        ". ",
+        calibrate(place.measured ? "Calibrated" : "Not measured yet"),
+      ];
+}
 
 function form(tasks, trainees, me, chosenTrainee) {
   const first = tasks.find((t) => t.id === "paracentesis") || tasks[0];
@@ -82,6 +104,7 @@ function form(tasks, trainees, me, chosenTrainee) {
     patient,
     "0 is the average patient; each other number is another patient, always the same one.",
   );
+  const heldAt = h("p", { class: "muted", id: "held-at" });
   const follow = () => {
     const now = tasks.find((t) => t.id === task.value()),
       options = now?.options || [];
@@ -89,10 +112,12 @@ function form(tasks, trainees, me, chosenTrainee) {
     side.node.hidden = !options.includes("side");
     order.node.hidden = !options.includes("sort");
     patientField.hidden = !options.includes("patient_seed");
+    const place = (me.stations ?? []).find((s) => s.kind === now?.station);
+    put(heldAt, stationWords(place));
     // Only the virtual bench has a second device, and can have another thing on it.
     fingers.node.hidden =
-      !me.simulated || !options.includes("fingers") || operator.value() === "person";
-    const surfaces = me.simulated ? (now?.surfaces ?? []) : [];
+      !place?.simulated || !options.includes("fingers") || operator.value() === "person";
+    const surfaces = place?.simulated ? (now?.surfaces ?? []) : [];
     surfaceField.hidden = surfaces.length === 0;
     offer(surface, [["", "as the task has it"], ...surfaces.map((s) => [s, s])]);
     const assess = kind.node.querySelector("input[value=assess]");
@@ -159,6 +184,7 @@ function form(tasks, trainees, me, chosenTrainee) {
         field("Seed", seed, "The same seed gives the same simulated hand again."),
       ),
     ),
+    heldAt,
     said,
     h(
       "div",

@@ -153,21 +153,5 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_LE(worst(cleared, "pulse_rel_rms"), 0.05);
 }
 
-/// On objects of finite elements, by separate hands: two hundred maps.
-TEST(BenchObject, AMapIsTrueAndKnowsItsError) {
-  if (!test::fullCounts()) GTEST_SKIP() << "two hundred maps take minutes: ./check --full";
-  const Folder here;
-  const Outcome outcome = palpa({"bench", "object"}, here.path());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Lines lines = linesOf(outcome, [](const nlohmann::json&) { return true; });
-  const std::vector<double> near = valuesOf(lines, "object_within_10_percent"),
-                            covered = valuesOf(lines, "object_coverage95_all");
-  ASSERT_EQ(near.size(), 4u);
-  EXPECT_GE(*std::min_element(near.begin(), near.end()), 0.9);
-  ASSERT_EQ(covered.size(), 1u);
-  EXPECT_GE(covered[0], 0.92);
-  EXPECT_LE(covered[0], 0.98);
-}
-
 }  // namespace
 }  // namespace palpa::cli_test

@@ -2,11 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
-
-#include "anatomy/base/error.h"
-#include "tests/support/scratch_folder.h"
 
 namespace palpa::console {
 namespace {
@@ -56,46 +52,6 @@ TEST(Place, OnlyWhatASessionShowsIsShown) {
   EXPECT_FALSE(isShown(std::string("report.html\0", 12)));
   EXPECT_FALSE(isShown(std::string("view-a\0.png", 11)));
   EXPECT_FALSE(isShown("view-" + std::string(10'000, 'a') + ".png"));
-}
-
-ConsolePlace placeIn(const test::ScratchFolder& folder) {
-  ConsolePlace place;
-  place.home = folder.path();
-  return place;
-}
-
-TEST(Place, TheChosenStationIsKept) {
-  const test::ScratchFolder folder("station");
-  const ConsolePlace place = placeIn(folder);
-  EXPECT_EQ(stationOf(place), "");
-  std::ofstream(folder / "my \"station\" \u00e4.json") << "{}";
-  chooseStation(place, folder / "my \"station\" \u00e4.json");
-  EXPECT_EQ(stationOf(place), (folder / "my \"station\" \u00e4.json").string());
-  std::filesystem::remove(folder / "my \"station\" \u00e4.json");
-  EXPECT_EQ(stationOf(place), "") << "it was removed";
-}
-
-/// Never the virtual bench in silence where another station was chosen: an error that says which
-/// file it is.
-TEST(Place, DamagedSettingsAreSaid) {
-  const test::ScratchFolder folder("damaged");
-  const ConsolePlace place = placeIn(folder);
-  for (const std::string text :
-       {"", "{", "[]", "null", "1", "{\"station\": 5}", "{\"station\": [\"x\"]}", "\xff\xfe",
-        "{\"station\": \"x\"", "not json"}) {
-    std::ofstream(place.settings(), std::ios::binary) << text;
-    try {
-      EXPECT_EQ(stationOf(place), "") << text;
-      ADD_FAILURE() << "was taken: " << text;
-    } catch (const Error& e) {
-      EXPECT_NE(std::string(e.what()).find("settings.json"), std::string::npos)
-          << text << ": " << e.what();
-    }
-  }
-  std::ofstream(place.settings(), std::ios::binary) << "{}";
-  EXPECT_EQ(stationOf(place), "");
-  std::ofstream(place.settings(), std::ios::binary) << std::string(100'000, '[');
-  EXPECT_THROW(stationOf(place), Error);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "apps/console/console.h"
 #include "apps/console/guard.h"
 #include "apps/console/httplib_server.h"
+#include "apps/console/stations.h"
 #include "apps/console/web_server.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"

@@ -206,8 +206,8 @@ void benchHeadsetApart(bool quick) {
 }
 
 /// What parts of a picture take of the processor: frames with them beside frames without.
-void benchCosts(const anatomy::Patient& patient, int blocks, scene::SceneView& view,
-                const json& params) {
+void benchCosts(const anatomy::Patient& patient, const RenderBenchOptions& options, int blocks,
+                scene::SceneView& view, const json& params) {
   SessionFrames frames(patient);
   const auto print_cost = [&](const char* part, const std::function<void(int)>& without,
                               const std::function<void(int)>& with) {
@@ -239,6 +239,12 @@ void benchCosts(const anatomy::Patient& patient, int blocks, scene::SceneView& v
     };
   };
   print_cost("smooth edges", sharp(false), sharp(true));
+  const auto beside =
+      scene::makeGlContext(scene::Display::offscreen, options.width, options.height, "Palpa");
+  scene::ViewLayout framed{options.width, options.height};
+  framed.framed = true;
+  scene::SceneView closer(*beside, patient, framed);
+  print_cost("framed on the work", all, [&](int i) { closer.show(frames.at(i)); });
 }
 
 /// Shares of a frame's time.
@@ -275,7 +281,7 @@ void benchRender(const RenderBenchOptions& options) {
     scene::SceneView view(*context, patient, {options.width, options.height});
     benchFrame(patient, options, blocks, view, params);
     benchSteadiness(patient, options, view, params);
-    benchCosts(patient, blocks, view, params);
+    benchCosts(patient, options, blocks, view, params);
     benchShares(patient, view, params);
   }
   benchTranslucency(*context->window(), patient, blocks, params);

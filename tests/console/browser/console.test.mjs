@@ -106,6 +106,27 @@ test("the camera is calibrated", { skip, timeout: 400_000 }, async () => {
 });
 
 test(
+  "each station is calibrated by itself, and a task says where it is held",
+  { skip, timeout: 400_000 },
+  async () => {
+    await e.go("#/calibrate?station=touch");
+    await page.locator(".step", { hasText: "amera" }).first().getByRole("button").click();
+    await page.locator("#calibration-work .notice.good").waitFor({ timeout: 300_000 });
+    await page.getByRole("radio", { name: "Search", exact: true }).check();
+    await page.waitForFunction(() => document.querySelectorAll(".step").length === 1);
+    assert.equal(await page.getByRole("button", { name: "Run all steps" }).count(), 0);
+    await e.go("#/session");
+    for (const [task, said] of [
+      ["Palpation of the breast", /palpation bench.*Calibrated/],
+      ["Find the rough one: a haptic search", /search bench.*Not measured yet/],
+    ]) {
+      await page.getByRole("radio", { name: task, exact: true }).check();
+      assert.match(await page.locator("#held-at").textContent(), said);
+    }
+  },
+);
+
+test(
   "two trainees are added; one without agreement is not; what they wrote is text",
   { skip },
   async () => {
