@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "apps/console/blinding.h"
 #include "apps/live/wire.h"
 #include "apps/os/local_socket.h"
 #include "apps/os/real_time.h"
@@ -36,7 +37,7 @@ bool sendAll(int socket, const std::string& bytes) {
 
 }  // namespace
 
-SessionLink::SessionLink(std::string socket) : path_(std::move(socket)) {
+SessionLink::SessionLink(std::string socket, bool blind) : path_(std::move(socket)), blind_(blind) {
   thread_ = os::startThread([this] { run(); });
 }
 
@@ -97,7 +98,7 @@ bool SessionLink::receive(int socket, LinkReader& reader) {
       const std::lock_guard lock(mutex_);
       if (frame->kind == live::FrameKind::known)
         known_ = std::strtoull(frame->body.c_str(), nullptr, 10);
-      if (frame->kind == live::FrameKind::entry) take(frame->body);
+      if (frame->kind == live::FrameKind::entry) take(blind_ ? blinded(frame->body) : frame->body);
       if (frame->kind == live::FrameKind::picture)
         picture_ = {std::make_shared<const std::string>(frame->body), picture_.number + 1};
     }
@@ -147,6 +148,7 @@ SessionLink::News SessionLink::wait(std::size_t from, std::chrono::milliseconds 
 
 SessionLink::Picture SessionLink::picture(std::uint64_t after, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
+  if (blind_) return {};
   asked_ = runtime::ServingClock::now();
   changed_.wait_for(lock, patience, [&] { return picture_.number > after || over_; });
   return picture_.number > after ? picture_ : Picture{};

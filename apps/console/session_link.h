@@ -20,7 +20,9 @@ namespace palpa::console {
 /// are kept, however long the session is. Any thread.
 class SessionLink {
  public:
-  explicit SessionLink(std::string socket);
+  /// `blind`: only what whoever must not know its condition may hear is kept (blinding.h), and
+  /// there are no pictures.
+  explicit SessionLink(std::string socket, bool blind = false);
   ~SessionLink();
 
   struct News {
@@ -65,6 +67,7 @@ class SessionLink {
   bool caughtUp() const { return over_ || passed_ >= known_; }
 
   const std::string path_;
+  const bool blind_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::string> entries_;

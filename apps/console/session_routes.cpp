@@ -170,6 +170,8 @@ void addSessionRoutes(WebServer& server, Console& c) {
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{1000};
+constexpr char kNoPicture[] =
+    "belongs to a study whose educators are blind: a picture could tell what was drawn";
 constexpr char kBoundary[] = "palpa-picture";
 
 bool write(httplib::DataSink& sink, const std::string& bytes) {
@@ -240,11 +242,13 @@ void addLiveRoutes(WebServer& server, Console& c) {
              });
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/view)",
              [&server, &c](const httplib::Request& q, httplib::Response& r) {
+               if (c.sessions.isBlind(q.matches[1])) return refuse(r, 403, kNoPicture);
                if (const auto link = linkFor(server, c, q.matches[1], r))
                  sendPictures(server, link, r);
              });
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/picture)",
              [&c](const httplib::Request& q, httplib::Response& r) {
+               if (c.sessions.isBlind(q.matches[1])) return refuse(r, 403, kNoPicture);
                const auto link = c.sessions.link(q.matches[1]);
                const SessionLink::Picture picture =
                    link ? link->picture(0, kPatience) : SessionLink::Picture{};

@@ -132,8 +132,12 @@ fs::path Sessions::folder(const std::string& id) const {
 
 fs::path Sessions::results(const std::string& id) const { return resultsIn(folder(id)); }
 
+bool Sessions::isBlind(const std::string& id) const {
+  return factsOf(folder(id)).value("blind", false);
+}
+
 fs::path Sessions::shown(const std::string& id) const {
-  if (factsOf(folder(id)).value("blind", false))
+  if (isBlind(id))
     throw UsageError("belongs to a study whose educators are blind", "session " + id,
                      "Its figures are read with the study's: palpa study analyse");
   return results(id);
@@ -150,7 +154,7 @@ void Sessions::find() {
 }
 
 void Sessions::connect(const std::string& id, os::ProcessId process) {
-  auto link = std::make_shared<SessionLink>(socketOf(id));
+  auto link = std::make_shared<SessionLink>(socketOf(id), isBlind(id));
   running_[id] = {process, link, false};
   const std::lock_guard lock(links_mutex_);
   links_[id] = std::move(link);

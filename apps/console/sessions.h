@@ -49,6 +49,7 @@ class Sessions {
       const std::string& id) const;  ///< throws UsageError where it is none
   std::filesystem::path results(const std::string& id)
       const;  ///< where its report is: the folder, or that of a study's newest block
+  bool isBlind(const std::string& id) const;  ///< throws UsageError where it is none
   /// The same, to be shown; throws UsageError where the study is blind for educators: figures and
   /// pictures could tell what was drawn.
   std::filesystem::path shown(const std::string& id) const;

@@ -101,7 +101,9 @@ void LiveSink::tick(const haptics::FlightRecord& record) {
 
 void LiveSink::event(const runtime::Event& event) {
   evidence_.event(event);
-  if (event.is(runtime::EventKind::picture)) return;  // whoever looks on sees the moment itself
+  // Whoever looks on sees the moment itself; what a trial is about is written for programs, and is
+  // the answer.
+  if (event.is(runtime::EventKind::picture) || event.is(runtime::EventKind::trial_case)) return;
   log_.add(entryOf({{"kind", "event"},
                     {"t_s", secondsOf(event.t_ns)},
                     {"trial", event.trial},

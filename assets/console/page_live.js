@@ -26,10 +26,19 @@ class SessionTime {
   }
 }
 
-function figures() {
+const kBlind =
+  "This session belongs to a study whose educators are blind: you see how it stands, which trial " +
+  "it is, its time, alarms and your notes. Pictures, forces and results could tell the condition " +
+  "that was drawn; they are read with the study's.";
+
+function figures(blind) {
   const made = {};
-  const one = (key, name) =>
-    h("div", { class: `figure-${key}` }, h("dt", {}, name), (made[key] = h("dd", {}, "–")));
+  const one = (key, name) => {
+    made[key] = h("dd", {}, "–");
+    return blind && key !== "time"
+      ? null
+      : h("div", { class: `figure-${key}` }, h("dt", {}, name), made[key]);
+  };
   const node = h(
     "dl",
     { class: "card live-figures" },
@@ -118,7 +127,7 @@ export async function show({ root, life, params: [id], open }) {
     controls = new LiveControls(life, id),
     curves = new LiveCurves(life),
     events = new LiveEvents(life, id, () => time.now()),
-    figure = figures(),
+    figure = figures(session.blind),
     view = picture();
   const keys = h(
     "p",
@@ -135,12 +144,14 @@ export async function show({ root, life, params: [id], open }) {
     h(
       "div",
       { class: "live" },
-      h("div", { class: "stack" }, view.node, curves.node),
+      session.blind
+        ? h("div", { class: "stack" }, notice("note", kBlind))
+        : h("div", { class: "stack" }, view.node, curves.node),
       h("div", { class: "stack side" }, figure.node, events.node),
     ),
     keys,
   );
-  const moving = followPicture(life, id, view);
+  const moving = session.blind ? { again() {}, stop() {} } : followPicture(life, id, view);
   life.atEnd(
     watchConnection((since) => {
       if (!since) moving.again();
@@ -150,7 +161,7 @@ export async function show({ root, life, params: [id], open }) {
     put(
       tags,
       tag(who(hello.trainee)),
-      tag(hello.assessed ? "assessed" : "practice"),
+      session.blind ? tag("blind study") : tag(hello.assessed ? "assessed" : "practice"),
       hello.simulated ? simulatedBadge() : null,
     );
   title(session);
