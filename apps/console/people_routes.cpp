@@ -208,6 +208,18 @@ void addPeopleRoutes(WebServer& server, Console& c) {
     store.addTrainee(one);
     answer(r, {{"id", one.id}}, 201);
   });
+  server.Post(R"(/api/trainees/([A-Za-z0-9_-]{1,32})/research)",
+              [&c](const httplib::Request& q, httplib::Response& r) {
+                const json body = bodyOf(q);
+                if (!body.value("agrees", json()).is_boolean())
+                  throw UsageError("is neither true nor false", "agrees", "Load the page again");
+                record::RecordStore store(c.place.records);
+                std::optional<record::Trainee> one = store.trainee(q.matches[1]);
+                if (!one) return refuse(r, 404, "is not in the records");
+                one->research_utc = body["agrees"].get<bool>() ? utcNow() : "";
+                store.changeTrainee(*one);
+                answer(r, {{"research_utc", one->research_utc}});
+              });
   server.Get(R"(/api/trainees/([A-Za-z0-9_-]{1,32})/report)", [&c](const httplib::Request& q,
                                                                    httplib::Response& r) {
     const std::string id = q.matches[1];

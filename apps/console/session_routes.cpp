@@ -80,6 +80,9 @@ std::vector<std::string> sessionCommand(const Console& c, const SessionWish& wis
   if (wish.performer == "person" && !c.place.display && stationFile(c.place, kind).empty())
     throw UsageError("needs a window at the station, and there is no display",
                      "a person on the virtual bench", "Choose a simulated expert or novice");
+  if (wish.performer == "person" && !takesMouse(task) && onBench(c.place, kind))
+    throw UsageError("cannot hold this task's tool with a mouse", "a person on the virtual bench",
+                     "Choose a simulated expert or novice, or a station with a haptic device");
   std::vector<std::string> a = argumentsOf(task, wish);
   if (wish.performer != "person" || !c.place.display) a.insert(a.end(), {"--display", "offscreen"});
   if (!wish.trainee.empty())

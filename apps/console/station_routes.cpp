@@ -44,11 +44,12 @@ json described(const Console& c, StationKind kind) {
     const station::Station station = stationNow(c.place, kind);
     one["title"] = station.title;
     one["simulated"] = station.simulated;
+    one["bench"] = station.device.driver == station::DeviceDriver::bench;
     one["measured"] = !station.calibrations.empty();
     one["trouble"] = station.calibrationProblem();
   } catch (const Error& e) {
     one["title"] = titleOf(kind);
-    one["simulated"] = false;
+    one["simulated"] = one["bench"] = false;
     one["measured"] = false;
     one["trouble"] = e.what();
   }

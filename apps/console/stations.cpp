@@ -114,6 +114,10 @@ void addStation(const ConsolePlace& place, StationKind kind, std::vector<std::st
     arguments->insert(arguments->end(), {"--station", chosen, "--bench-seed", "1"});
 }
 
+bool onBench(const ConsolePlace& place, StationKind kind) {
+  return stationNow(place, kind).device.driver == station::DeviceDriver::bench;
+}
+
 bool isSimulated(const ConsolePlace& place, StationKind kind, const std::string& performer) {
   return performer != "person" || stationNow(place, kind).simulated;
 }

@@ -40,6 +40,8 @@ station::Station stationNow(const ConsolePlace& place, StationKind kind);
 /// here.
 void addStation(const ConsolePlace& place, StationKind kind, std::vector<std::string>* arguments);
 
+/// Its device is the virtual bench's: a person holds it with the mouse.
+bool onBench(const ConsolePlace& place, StationKind kind);
 /// What comes of it is simulated: because of who performs, or of where.
 bool isSimulated(const ConsolePlace& place, StationKind kind, const std::string& performer);
 

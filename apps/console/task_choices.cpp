@@ -88,6 +88,8 @@ TaskChoice taskChoice(const std::string& id) {
   throw UsageError("is not here", "task " + id, "Choose one from the list");
 }
 
+bool takesMouse(const TaskChoice& task) { return kindOf(task).person_by_mouse; }
+
 json described(const TaskChoice& task) {
   const EngineOptions& kind = kindOf(task);
   json options = json::array({"force_feedback"});

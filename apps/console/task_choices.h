@@ -26,6 +26,8 @@ std::vector<TaskChoice> taskChoices();
 /// Throws UsageError where there is none of that id.
 TaskChoice taskChoice(const std::string& id);
 
+/// Whether a person can hold its tool with a mouse, on the virtual bench.
+bool takesMouse(const TaskChoice& task);
 /// As the page of a new session takes it.
 nlohmann::json described(const TaskChoice& task);
 /// The command that holds it, and what was chosen; a choice that the task does not offer is left

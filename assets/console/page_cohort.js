@@ -1,15 +1,14 @@
 // Everyone, or one group: which errors are common, who learns how.
 import { list } from "./api.js";
 import { h } from "./dom.js";
-import { choice, field } from "./parts.js";
+import { choice, field, notice } from "./parts.js";
 import { awaitReport } from "./report_frame.js";
 
 export async function show({ root, life, query, open }) {
   const group = query.get("group") || "";
   open("Cohort");
-  const groups = [
-    ...new Set((await list("/api/trainees")).map((t) => t.group).filter(Boolean)),
-  ].sort();
+  const trainees = await list("/api/trainees"),
+    groups = [...new Set(trainees.map((t) => t.group).filter(Boolean))].sort();
   if (group && !groups.includes(group)) groups.push(group);
   const select = choice([["", "everyone"], ...groups.map((g) => [g, g])], group);
   const report = h("div", {});
@@ -29,6 +28,19 @@ export async function show({ root, life, query, open }) {
     ),
     report,
   );
+  const asked = trainees.filter((t) => !group || t.group === group);
+  if (!asked.some((t) => Number(t.trials) > 0)) {
+    report.append(
+      notice(
+        "none",
+        group
+          ? `Nobody of the group ${group} has a recorded trial yet.`
+          : "There is no recorded trial yet. A session with a trainee adds to this report.",
+      ),
+      h("p", {}, h("a", { class: "button", href: "#/session" }, "Start a session")),
+    );
+    return;
+  }
   awaitReport(
     life,
     `/api/cohort${group ? `?group=${encodeURIComponent(group)}` : ""}`,

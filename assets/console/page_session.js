@@ -83,7 +83,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       [
         "person",
         "a person",
-        me.display ? "" : "This station has no display: a person cannot train here now.",
+        " ", // its hint follows the task
       ],
       ["expert", "simulated expert", "Shows how it is done; marked as simulated."],
       ["novice", "simulated novice", "Makes the common errors; marked as simulated."],
@@ -120,6 +120,19 @@ function form(tasks, trainees, me, chosenTrainee) {
     const surfaces = place?.simulated ? (now?.surfaces ?? []) : [];
     surfaceField.hidden = surfaces.length === 0;
     offer(surface, [["", "as the task has it"], ...surfaces.map((s) => [s, s])]);
+    // A mouse on the virtual bench holds some tools only; a device at a station holds its own.
+    const person = operator.node.querySelector("input[value=person]"),
+      held = me.display && (now?.by_mouse !== false || !place?.bench);
+    person.disabled = !held;
+    put(
+      operator.node.querySelector(`#${person.id}-hint`),
+      held
+        ? "Holds the device, or the mouse on the virtual bench."
+        : me.display
+          ? "A mouse cannot hold this task's tool: it needs a station with a haptic device."
+          : "This station has no display: a person cannot train here now.",
+    );
+    if (!held && person.checked) operator.node.querySelector("input[value=expert]").checked = true;
     const assess = kind.node.querySelector("input[value=assess]");
     assess.disabled = now?.assessable === false;
     if (assess.disabled && assess.checked)

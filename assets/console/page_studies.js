@@ -5,6 +5,7 @@ import { h } from "./dom.js";
 import { plural } from "./format.js";
 import { badge, choice, during, field, notice, simulatedBadge, table } from "./parts.js";
 
+const kSimulated = "simulated"; // the experience of a simulated trainee, who need not be asked
 const kOperators = [
   ["person", "the trainee (a person)"],
   ["expert", "simulated expert"],
@@ -32,18 +33,33 @@ function enrolled(study) {
 function nextBlock(study, trainees, me) {
   const waiting = (study.enrolled || []).filter((e) => e.next),
     known = new Set((study.enrolled || []).map((e) => e.trainee));
-  const fresh = trainees.filter((t) => !known.has(t.id) && (study.groups || []).includes(t.group));
+  const fits = trainees.filter((t) => !known.has(t.id) && (study.groups || []).includes(t.group)),
+    agrees = (t) => t.research_utc || t.experience === kSimulated,
+    fresh = fits.filter(agrees),
+    silent = fits.filter((t) => !agrees(t)).map((t) => t.id);
+  const asked = silent.length
+    ? h(
+        "p",
+        { class: "hint" },
+        `Not offered, since they have not agreed to use in research: ${silent.join(", ")}. `,
+        h("a", { href: "#/trainees" }, "Note it on the page Trainees"),
+        " once they do.",
+      )
+    : null;
   const options = [
     ...waiting.map((e) => [e.trainee, `${e.trainee}: ${e.next}`]),
     ...fresh.map((t) => [t.id, `${t.id}, ${t.group}: not enrolled yet, will be enrolled by this`]),
   ];
   if (options.length === 0)
-    return h(
-      "p",
-      { class: "muted" },
-      "Nobody can start a block now. The first block enrols a new trainee: " +
-        `add one of the group ${(study.groups || []).join(" or ")} on the page Trainees.`,
-    );
+    return [
+      h(
+        "p",
+        { class: "muted" },
+        "Nobody's next block is due. The first block enrols a new trainee: " +
+          `add one of the group ${(study.groups || []).join(" or ")} on the page Trainees.`,
+      ),
+      asked,
+    ];
   const trainee = choice(options),
     operator = choice(kOperators, me.display ? "person" : "expert");
   const said = h("div", { class: "said" }),
@@ -76,6 +92,7 @@ function nextBlock(study, trainees, me) {
         me.display ? null : "This station has no display: a person cannot train here now.",
       ),
     ),
+    asked,
     said,
     h("div", { class: "row" }, go),
   );

@@ -1,8 +1,8 @@
 // Who trains here, under pseudonyms; and how somebody new is added.
-import { list, post } from "./api.js";
+import { list, post, url } from "./api.js";
 import { announce, h, put } from "./dom.js";
 import { day } from "./format.js";
-import { badge, choice, during, field, radios, table, tick } from "./parts.js";
+import { badge, button, choice, during, field, radios, table, tick } from "./parts.js";
 
 /** The next free T-number, so that nothing need be invented. */
 function freePseudonym(trainees) {
@@ -13,7 +13,31 @@ function freePseudonym(trainees) {
   return `T${String(Math.max(0, ...taken) + 1).padStart(3, "0")}`;
 }
 
-function rows(trainees) {
+/** Whether somebody agrees to use in research: given and withdrawn here, at any time. */
+function research(trainee, done) {
+  const agrees = Boolean(trainee.research_utc);
+  const change = async () => {
+    await post(url("/api/trainees", trainee.id, "research"), { agrees: !agrees });
+    await done(
+      trainee.id,
+      agrees
+        ? `${trainee.id} takes part in no study from now on.`
+        : `${trainee.id} agrees to use in research: noted.`,
+    );
+  };
+  return h(
+    "span",
+    { class: "row tight" },
+    agrees ? badge("good", `agreed ${day(trainee.research_utc)}`) : badge("none", "not agreed"),
+    button(
+      [agrees ? "Withdraw" : "Agrees now", h("span", { class: "unseen" }, `: ${trainee.id}`)],
+      change,
+      { class: "quiet" },
+    ),
+  );
+}
+
+function rows(trainees, done) {
   return trainees.map((t) => [
     h("a", { href: `#/trainees/${encodeURIComponent(t.id)}` }, t.id),
     t.group || "–",
@@ -21,6 +45,7 @@ function rows(trainees) {
     String(Number(t.sessions) || 0),
     String(Number(t.trials) || 0),
     t.consent_utc ? badge("good", "noted") : badge("note", "missing"),
+    research(t, done),
     t.retain_until ? day(t.retain_until) : "–",
   ]);
 }
@@ -134,8 +159,21 @@ export async function show({ root, open }) {
             { class: "card flush" },
             table(
               "Trainees of this station",
-              ["Pseudonym", "Group", "Experience", "Sessions", "Trials", "Agreement", "Keep until"],
-              rows(trainees),
+              [
+                "Pseudonym",
+                "Group",
+                "Experience",
+                "Sessions",
+                "Trials",
+                "Records",
+                "Research",
+                "Keep until",
+              ],
+              rows(trainees, async (id, words) => {
+                await draw();
+                announce(words);
+                place.querySelector(`a[href="#/trainees/${id}"]`)?.focus();
+              }),
               true,
             ),
           )

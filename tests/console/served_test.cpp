@@ -287,6 +287,21 @@ TEST(Served, AKilledSessionIsSaidInWords) {
   EXPECT_TRUE(desk.isState(next, "finished"));
 }
 
+TEST(Served, AgreementToResearchIsGivenAndWithdrawnOnAPage) {
+  Desk desk("research");
+  ASSERT_EQ(desk.console->post("/api/trainees", {{"id", "T5"}, {"consent", true}}), 201);
+  const auto agreed = [&] { return desk.console->get("/api/trainees")[0]["research_utc"] != ""; };
+  EXPECT_FALSE(agreed());
+  const std::string path = "/api/trainees/T5/research";
+  EXPECT_EQ(desk.console->post(path, {{"agrees", true}}), 200);
+  EXPECT_TRUE(agreed());
+  EXPECT_EQ(desk.console->post(path, {{"agrees", "yes"}}), 422);
+  EXPECT_TRUE(agreed()) << "as it was";
+  EXPECT_EQ(desk.console->post(path, {{"agrees", false}}), 200);
+  EXPECT_FALSE(agreed());
+  EXPECT_EQ(desk.console->post("/api/trainees/T6/research", {{"agrees", true}}), 404);
+}
+
 TEST(Served, TwoConsolesAtOnePlaceAreOneTooMany) {
   Desk desk("two");
   Served second(desk.folder / "home", desk.sockets.path());

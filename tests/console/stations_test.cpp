@@ -36,6 +36,9 @@ TEST(Stations, EveryTaskHasOneThatItCanBeHeldAt) {
     EXPECT_TRUE(stationNow(place, stationKindOf(engine)).sample) << training::nameOf(engine);
   EXPECT_TRUE(stationNow(place, stationKindOf(training::Engine::search)).floor);
   EXPECT_FALSE(stationNow(place, StationKind::needle).landmarks.empty());
+  for (const StationKind kind : kStationKinds) EXPECT_TRUE(onBench(place, kind));
+  chooseStation(place, StationKind::needle, shipped("stations/falcon.json"));
+  EXPECT_FALSE(onBench(place, StationKind::needle)) << "a device to hold";
 }
 
 /// One that is calibrated is used for what it is for, and for nothing else.
