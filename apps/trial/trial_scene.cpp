@@ -106,11 +106,11 @@ std::string whyText(haptics::SafetyCause cause) {
     case SafetyCause::corrupt_geometry:
       return "damaged geometry was refused";
     case SafetyCause::no_sensor:
-      return "the force sensor said nothing that could be believed";
+      return "the force sensor gave no usable reading";
     case SafetyCause::not_finite:
     case SafetyCause::jump:
     case SafetyCause::clock:
-      return "the device's readings could not be believed";
+      return "the device gave no usable reading";
     default:
       return haptics::name(cause);
   }

@@ -62,10 +62,8 @@ TEST_P(PalpationFault, IsNamedAndTakesTheForceAway) {
 INSTANTIATE_TEST_SUITE_P(
     Every, PalpationFault,
     testing::Values(
-        SensorFailure{
-            "unplugged", {}, "the force sensor said nothing that could be believed", false},
-        SensorFailure{
-            "saturated", {}, "the force sensor said nothing that could be believed", false},
+        SensorFailure{"unplugged", {}, "the force sensor gave no usable reading", false},
+        SensorFailure{"saturated", {}, "the force sensor gave no usable reading", false},
         SensorFailure{"drifting", {{"rate_N_per_s", 0.05}}, "it has drifted", true},
         SensorFailure{"reversed", nlohmann::json::object(), "its sign is wrong", true},
         SensorFailure{"wrong_scale", {{"factor", 3}}, "its scale is wrong", true},

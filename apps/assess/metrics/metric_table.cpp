@@ -100,7 +100,7 @@ constexpr MetricDefinition kMetrics[] = {
      kNoPath},
     {"col_artery", "Artery touched", "1", lower, "needle",
      "scoring samples with the tip in an artery or pressing on its wall", kNoPath},
-    {"col_vein", "Vein touched in vain", "1", lower, "needle",
+    {"col_vein", "Vein touched without success", "1", lower, "needle",
      "scoring samples at the vein outside the final, successful stay; its back wall always",
      kNoPath},
     {"phase_1_mm", "Error of entry and depth", "mm", lower, "needle",

@@ -31,7 +31,7 @@ const std::map<Engine, std::vector<ErrorKind>> kKindsOfEngines{
        "touch the clavicle lightly: it is the guide, not a place to push on"},
       {"col_rib", 0, false, "rib or bone was struck",
        "lower the syringe before the advance, so that the needle slides under the clavicle"},
-      {"col_vein", 0, false, "the vein was touched in vain",
+      {"col_vein", 0, false, "the vein was touched without success",
        "draw the plunger before the vein is reached and stop when blood comes"},
       {"phase_2", 1000, false, "the direction was beyond what is acceptable",
        "turn the needle fully toward the sternal end before the advance"},
