@@ -120,7 +120,7 @@ struct ObserverBenchOptions {
 void benchObserver(const ObserverBenchOptions& options);
 
 struct HudBenchOptions {
-  int sessions = 200;
+  int sessions = 200, first = 0;  ///< of a row without end, each always the same
 };
 
 /// Whether words cover what is worked with: recorded sessions of a needle, a palpation and a

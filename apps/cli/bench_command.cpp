@@ -156,8 +156,10 @@ void addObserver(CLI::App& bench) {
 void addHud(CLI::App& bench) {
   CLI::App* hud = bench.add_subcommand(
       "hud", "Whether words cover tip, entry or tool, over recorded sessions of both hands");
-  hud->footer("Example:\n  palpa bench hud > hud.jsonl\n  palpa bench hud --sessions 12");
+  hud->footer("Example:\n  palpa bench hud > hud.jsonl\n  palpa bench hud --first 37 --sessions 1");
   const auto options = std::make_shared<bench::HudBenchOptions>();
+  hud->add_option("--first", options->first, "The first of them: to look at one again")
+      ->check(inRange(0, 1'000'000));
   hud->add_option("--sessions", options->sessions, "Sessions (default 200)")
       ->check(inRange(1, 100'000));
   hud->callback([options] { bench::benchHud(*options); });

@@ -92,7 +92,7 @@ class Painted {
 struct Ground {
   Eigen::AlignedBox2d table;  ///< x, z
   double table_y = 0;
-  double floor_y() const { return table_y + kTableHigh; }
+  double floorY() const { return table_y + kTableHigh; }
 };
 
 Ground groundOf(const anatomy::Patient& patient) {
@@ -119,7 +119,7 @@ void paintFloor(const Ground& ground, Painted& room) {
       for (std::size_t k = 0; k < 4; ++k) {
         const double x = middle.x() + kTile * (i + kCorners[k][0]),
                      z = middle.y() + kTile * (j + kCorners[k][1]);
-        corners[k] = {x, ground.floor_y(), z};
+        corners[k] = {x, ground.floorY(), z};
         colours[k] = times(tile, lightAt(x, z));
       }
       room.face(corners, colours);
@@ -128,7 +128,7 @@ void paintFloor(const Ground& ground, Painted& room) {
 
 void paintWalls(const Ground& ground, Painted& room) {
   const Eigen::Vector2d m = ground.table.center();
-  const double low = ground.floor_y(), high = low - kRoomHigh;
+  const double low = ground.floorY(), high = low - kRoomHigh;
   const std::array<Eigen::Vector2d, 4> corners{
       m + kHalfRoom * Eigen::Vector2d(-1, -1), m + kHalfRoom * Eigen::Vector2d(1, -1),
       m + kHalfRoom * Eigen::Vector2d(1, 1), m + kHalfRoom * Eigen::Vector2d(-1, 1)};
@@ -152,7 +152,7 @@ void paintTable(const Ground& ground, Painted& room) {
   room.box({low.x(), top, low.y()}, {high.x(), below, high.y()}, colour::kTable, side);
   for (const double x : {low.x(), high.x() - kLegWide})
     for (const double z : {low.y(), high.y() - kLegWide})
-      room.box({x, below, z}, {x + kLegWide, ground.floor_y(), z + kLegWide}, side,
+      room.box({x, below, z}, {x + kLegWide, ground.floorY(), z + kLegWide}, side,
                times(side, 0.8));
 }
 

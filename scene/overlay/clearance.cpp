@@ -6,7 +6,6 @@
 namespace palpa::scene {
 namespace {
 
-constexpr double kMost = 0.05;    // of the tool
 constexpr double kAround_px = 8;  // of a point
 constexpr int kPlaces = 24;       // along a part
 
@@ -56,7 +55,7 @@ bool isClear(const Rect& plate, const Surroundings& surroundings, const Rect& pa
         return p.x() > plate.x - kAround_px && p.x() < plate.right() + kAround_px &&
                p.y() > plate.y - kAround_px && p.y() < plate.top() + kAround_px;
       });
-  return !on_point && shareUnder(plate, surroundings, panel) <= kMost;
+  return !on_point && shareUnder(plate, surroundings, panel) <= kMostCovered;
 }
 
 Rect mirrored(const Rect& plate, const Rect& panel) {

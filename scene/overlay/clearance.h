@@ -24,7 +24,9 @@ struct Surroundings {
 
 /// The part of the tool's area, as it is seen in `panel`, that lies under a plate; 0 to 1.
 double shareUnder(const Rect& plate, const Surroundings& surroundings, const Rect& panel);
-/// A plate covers no point, nor more than 5 % of the tool.
+/// Of the tool; together, too.
+inline constexpr double kMostCovered = 0.05;
+/// A plate covers no point, nor more of the tool than that.
 bool isClear(const Rect& plate, const Surroundings& surroundings, const Rect& panel);
 /// The plate on the panel's other side.
 Rect mirrored(const Rect& plate, const Rect& panel);

@@ -53,6 +53,7 @@ class HudPainter {
   };
   void build();
   void makeWay(const Surroundings& surroundings);
+  void hideTogether(const Surroundings& surroundings, std::set<Plate>* hidden) const;
   bool move(const Surroundings& surroundings);
   bool inTheWay(Plate first, Plate last, bool other_side, const Surroundings& surroundings) const;
   int startOf(int width, bool right) const;

@@ -27,9 +27,28 @@ void HudPainter::makeWay(const Surroundings& surroundings) {
   for (const Placed& p : placed_)
     if (!isClear(p.frame, surroundings, panel_) && !(p.plate == Plate::notice && alarms()))
       hidden.insert(p.plate);
+  hideTogether(surroundings, &hidden);
   if (hidden == hidden_) return;
   hidden_ = std::move(hidden);
   build();
+}
+
+/// Plates of which each covers little may cover much together: the one that covers most goes first.
+void HudPainter::hideTogether(const Surroundings& surroundings, std::set<Plate>* hidden) const {
+  for (;;) {
+    double all = 0, most = 0;
+    Plate worst{};
+    for (const Placed& p : placed_) {
+      if (hidden->contains(p.plate)) continue;
+      const double share = shareUnder(p.frame, surroundings, panel_);
+      all += share;
+      if (share <= most || (p.plate == Plate::notice && alarms())) continue;
+      most = share;
+      worst = p.plate;
+    }
+    if (all <= kMostCovered || most == 0) return;
+    hidden->insert(worst);
+  }
 }
 
 /// Whether anything is to lie elsewhere than it does.

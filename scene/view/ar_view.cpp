@@ -26,11 +26,12 @@ constexpr double kAzimuth = 18 * kDegree;   // toward the punctured side
 constexpr double kToolReach = 0.30;         // metres from the tip: the syringe, an arrow at its end
 constexpr double kEyesApart = 0.063;        // metres, the mean of adults (Dodgson 2004)
 constexpr double kNearestFocus = 0.1;
-constexpr double kNearestThing = 0.05;   // m from the camera, of what is real
-constexpr double kNearestToEyes = 0.02;  // m, in a room
-constexpr double kShadowHalf_px = 2;     // the least half-width of a shadow, likewise
-constexpr double kShaft_px = 5;          // an arrow's shaft in a window 720 pixels high
-constexpr double kPin_px = 11;           // a pin's head, likewise
+constexpr double kNearestThing = 0.05;                      // m from the camera, of what is real
+constexpr double kThumbRest = 0.012, kThumbRadius = 0.010;  // m, of a plunger
+constexpr double kNearestToEyes = 0.02;                     // m, in a room
+constexpr double kShadowHalf_px = 2;  // the least half-width of a shadow, likewise
+constexpr double kShaft_px = 5;       // an arrow's shaft in a window 720 pixels high
+constexpr double kPin_px = 11;        // a pin's head, likewise
 
 OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
   const double azimuth = patient.side == anatomy::Side::right ? -kAzimuth : kAzimuth;
@@ -231,6 +232,14 @@ Surroundings ArView::toolOnScreen(const SceneState& state, std::size_t of) const
       around.tool.push_back(
           {on_screen(before_A), on_screen(here_A), section.radius * eye.camera.fx / depth(here_A)});
       before_A = here_A;
+    }
+    if (tool == Tool::needle) {  // the plunger's rod and thumb rest, as far as it is drawn
+      const InstrumentSize size;
+      const double end = size.barrel_length - size.barrel_front + kThumbRest +
+                         std::clamp(state.plunger, 0.0, 1.0) * size.stroke;
+      const Vec3 end_A = X_AT * Vec3(0, 0, -end);
+      around.tool.push_back(
+          {on_screen(before_A), on_screen(end_A), kThumbRadius * eye.camera.fx / depth(end_A)});
     }
     around.points.push_back(on_screen(X_AT.translation()));
   };

@@ -102,6 +102,8 @@ struct Tally {
   long frames = 0, tip = 0, entry = 0, tool = 0, beyond = 0, alarms = 0;
   double worst = 0;            ///< share of a tool
   long wanted = 0, drawn = 0;  ///< plates, without a tool and with it
+
+  long faults() const { return tip + entry + tool + beyond; }
 };
 
 /// A recorded trial shown in one window, and what its words cover.
@@ -252,7 +254,12 @@ void benchHud(const HudBenchOptions& options) {
   const os::TemporaryFolder folder("palpa-bench-");
   Tally tally;
   for (int i = 0; i < options.sessions; ++i) {
-    watch(i, folder.path(), &tally);
+    const int session = options.first + i;
+    const long before = tally.faults();
+    watch(session, folder.path(), &tally);
+    if (tally.faults() > before)
+      std::fprintf(stderr, "hud: in session %d words cover too much of %ld frames\n", session,
+                   tally.faults() - before);
     if (i % 10 == 9) std::fprintf(stderr, "hud: %d of %d sessions\n", i + 1, options.sessions);
   }
   const nlohmann::json params{{"sessions", options.sessions},
