@@ -237,6 +237,11 @@ void addPageArguments(CLI::App& command, ReportOptions& o) {
                      "Only trials of this command: paracentesis, palpation, search, squeeze, "
                      "friction, pulse");
   command
+      .add_option("--leave-out-study", o.choice.left_out,
+                  "Without the trials of this study: whoever leads it may not know conditions")
+      ->type_name("ID")
+      ->expected(1);
+  command
       .add_option("--acceptable", o.rates.acceptable,
                   "Failure rate that is acceptable; the educator's choice, none is established "
                   "(with --unacceptable: 0.10/0.25, 0.10/0.20, 0.05/0.15, 0.05/0.10 need 13, "

@@ -27,9 +27,11 @@ json only(const json& entry, std::initializer_list<const char*> fields) {
 }
 
 json status(const json& entry) {
-  json kept =
-      only(entry, {"state", "trial", "trials", "alarm", "emergency_stop", "elapsed_s", "t_s"});
-  kept["notice"] = entry.value("alarm", json()) == true ? entry.value("notice", json("")) : "";
+  json kept = only(entry, {"state", "trial", "trials", "emergency_stop", "elapsed_s", "t_s"});
+  // An alarm may be of what the hand touches, and be shown in one condition only; what the station
+  // has to cry out is an event, too.
+  kept["alarm"] = false;
+  kept["notice"] = "";
   return kept;
 }
 

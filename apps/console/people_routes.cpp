@@ -65,11 +65,22 @@ json trainees(record::RecordStore& store) {
   return all;
 }
 
+std::vector<fs::path> protocolFiles() {
+  std::vector<fs::path> all;
+  for (const auto& entry : fs::directory_iterator(station::assetFile("protocols")))
+    if (entry.path().extension() == ".json") all.push_back(entry.path());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 /// A page made by a command of this program, as somebody asks for it; made anew when the records
 /// have changed since.
 json report(Console& c, const std::string& key, const std::string& title,
             std::vector<std::string> arguments, const std::string& page) {
   JobRequest request{key, title, std::move(arguments), "report/" + page, {}};
+  for (const fs::path& file : protocolFiles())
+    if (const study::Protocol protocol = study::readProtocol(file); protocol.blind_educator)
+      request.arguments.push_back("--leave-out-study=" + protocol.id);
   request.arguments.insert(request.arguments.end(),
                            {"--records", c.place.records, "--out", "{}/report"});
   return pageOf(c.jobs.ask(std::move(request)));
@@ -120,14 +131,6 @@ json enrolled(const study::Protocol& protocol, record::RecordStore& store,
           {"finished", next.kind == study::NextKind::finished},
           {"simulated", simulated},
           {"remarks", remarks}};
-}
-
-std::vector<fs::path> protocolFiles() {
-  std::vector<fs::path> all;
-  for (const auto& entry : fs::directory_iterator(station::assetFile("protocols")))
-    if (entry.path().extension() == ".json") all.push_back(entry.path());
-  std::sort(all.begin(), all.end());
-  return all;
 }
 
 fs::path protocolFile(const std::string& id) {
@@ -190,6 +193,8 @@ std::string runStudy(Console& c, const std::string& id, const json& body) {
                                      "--trainee", wish.trainee,   "--operator", wish.performer,
                                      "--records", c.place.records};
   if (kinds.size() == 1) addStation(c.place, *kinds.begin(), &arguments);
+  if (wish.performer != "person" || !c.place.display)
+    arguments.insert(arguments.end(), {"--display", "offscreen"});
   return c.sessions.begin(wish, std::move(arguments));
 }
 

@@ -9,6 +9,7 @@
 #include "apps/console/jobs.h"
 #include "apps/os/file_access.h"
 #include "apps/record/session_file.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::console {
 namespace {
@@ -86,7 +87,10 @@ json trialsIn(const fs::path& evidence, bool blind) {
   for (const record::RecordedTrial& trial : reader.trials()) {
     all.push_back(trialOf(trial, events));
     if (!blind) continue;
-    for (const char* figure : {"total", "summary", "role"}) all.back().erase(figure);
+    for (const char* figure : {"total", "summary", "role", "length_s"}) all.back().erase(figure);
+    if (training::isVoid(trial.end.outcome) || !trial.ended) continue;
+    all.back()["outcome"] = "recorded";
+    all.back().erase("reason");
   }
   return all;
 }

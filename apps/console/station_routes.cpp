@@ -49,7 +49,7 @@ json described(const Console& c, StationKind kind) {
     one["trouble"] = station.calibrationProblem();
   } catch (const Error& e) {
     one["title"] = titleOf(kind);
-    one["simulated"] = one["bench"] = false;
+    one["simulated"] = false;
     one["measured"] = false;
     one["trouble"] = e.what();
   }
@@ -102,6 +102,12 @@ json calibration(Console& c, StationKind kind) {
            {"steps", json::array()},
            {"calibrations", json::array()}};
   for (const StationKind one : kStationKinds) all["stations"].push_back(described(c, one));
+  if (const json stands = described(c, kind); !stands.contains("bench")) {
+    all["station"] = stands["title"];
+    all["verdict"] = stands["trouble"];
+    all["all"] = false;
+    return all;
+  }
   const station::Station station = stationNow(c.place, kind);
   for (const CalibrationStep& step : kSteps)
     if (takes(station, step.id))
@@ -128,6 +134,8 @@ std::string calibrate(Console& c, StationKind kind, const std::string& step) {
   if (step == "all" ? !takesAll(station) : !takes(station, step))
     throw UsageError("cannot be done at this station", step, "Choose one from the list");
   if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
+  if (!c.jobs.workingOn("calibrate").empty())
+    throw UsageError("is under way", "another calibration", "Wait until it is over, or stop it");
   JobRequest request;
   request.key = "calibrate";
   request.title = step == "all" ? "Everything" : found->title;
@@ -168,8 +176,11 @@ void checkHealth(Console& c) {
   request.title = "Check of the station";
   request.arguments = {"doctor",        "--json", "--records",
                        c.place.records, "--out",  c.place.sessions().string()};
-  if (const std::string chosen = stationFile(c.place, StationKind::needle); !chosen.empty())
-    request.arguments.insert(request.arguments.end(), {"--station", chosen});
+  try {
+    const std::string chosen = stationFile(c.place, StationKind::needle);
+    if (!chosen.empty()) request.arguments.insert(request.arguments.end(), {"--station", chosen});
+  } catch (const Error&) {  // the page of calibrations says what is wrong with the settings
+  }
   request.then = [&c](const fs::path& folder, bool) {
     const std::string text = textIn(folder / "log.txt");
     const std::size_t begin = text.find('{'), end = text.rfind('}');

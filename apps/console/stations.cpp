@@ -45,6 +45,16 @@ std::optional<JsonFile> settingsIn(const ConsolePlace& place) {
   return file;
 }
 
+/// Empty where the settings, or the one file that they had for all, cannot be read: choosing anew
+/// is the way out of that.
+std::string readableFile(const ConsolePlace& place, StationKind kind) {
+  try {
+    return stationFile(place, kind);
+  } catch (const Error&) {
+    return "";
+  }
+}
+
 bool isThere(const std::string& file) {
   std::error_code none;
   return !file.empty() && fs::exists(file, none);
@@ -91,7 +101,7 @@ std::string stationFile(const ConsolePlace& place, StationKind kind) {
 void chooseStation(const ConsolePlace& place, StationKind kind, const std::string& file) {
   nlohmann::json stations = nlohmann::json::object();
   for (const StationKind one : kStationKinds)
-    if (const std::string chosen = one == kind ? file : stationFile(place, one); !chosen.empty())
+    if (const std::string chosen = one == kind ? file : readableFile(place, one); !chosen.empty())
       stations[nameOf(one)] = chosen;
   writeWhole(place.settings(), nlohmann::json{{"stations", stations}}.dump(1) + "\n");
 }

@@ -291,6 +291,9 @@ std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,
   Practice practice;
   store.eachTrial({.trainee = choice.trainee, .task = choice.task},
                   [&](const record::TrialWithSession& stored) {
+                    const auto& out = choice.left_out;
+                    if (std::find(out.begin(), out.end(), stored.session.study) != out.end())
+                      return;
                     if (choice.group.empty() || group.contains(stored.session.trainee))
                       all.push_back(practice.of(stored));
                   });

@@ -39,6 +39,7 @@ std::string absoluteRecords(const std::string& url);
 /// Which trials a page is about; an empty text means any.
 struct PracticeChoice {
   std::string trainee, group, task;
+  std::vector<std::string> left_out = {};  ///< ids of studies
 };
 /// Trials as the pages of practice take them, by trainee, arrival and number. Throws Error for a
 /// session whose description is damaged.

@@ -181,10 +181,10 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
                          std::int64_t now_ns) { publish(state, status, now_ns); };
   if (!window_) return stage;
   stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
-    notePlace(now_ns);
     handleKeys(input, channels_, bus_.stop);
     if (PointingHand* hand = devices_.pointing())
       hand->handle(input, stage_.view->arGeometry(), now_ns);
+    notePlace(now_ns);  // asks the window system, which may take its time: last
   };
   return stage;
 }
@@ -306,7 +306,7 @@ SessionRun SessionFrame::leftBy(const trial::TrialTask& task, const trial::Trial
   run.camera_remarks = pictures_.remarks();
   run.board = scene.board();
   run.devices = devices_.facts();
-  run.renderer = stage_.renderer;
+  if (window_ && !options_.headset) run.renderer = stage_.renderer;  // else few are drawn, or wait
   run.safety_events = task.safetyEvents();
   run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;
   run.quit = task.quit();

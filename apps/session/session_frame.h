@@ -37,7 +37,7 @@ struct SessionRun {
   /// what took the force away, what a driver had to say
   std::vector<runtime::Event> safety_events;
   std::vector<report::Fact> devices;  ///< what their drivers counted
-  std::string renderer;               ///< what drew, as OpenGL names it; empty: nothing was drawn
+  std::string renderer;               ///< what drew into a window, as OpenGL names it; empty: none
   std::uint64_t dropped = 0;          ///< records lost by the recorder
   double simulated_s = 0;
   bool quit = false;

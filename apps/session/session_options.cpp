@@ -157,7 +157,7 @@ void settleOperator(SessionOptions& o, const station::Station& station) {
 
 void settle(SessionOptions& o) {
   if (o.display == scene::Display::automatic) {
-    const bool shown = !o.fast && !o.no_views;
+    const bool shown = !o.fast && !o.no_views && !o.headset;
     if (shown && scene::isWaylandAlone())
       throw UsageError(scene::whyNoX11(), "the window", scene::adviceWithoutX11());
     o.display =

@@ -35,18 +35,22 @@ async function guard(first) {
   return here;
 }
 
+/** The stations as they stand; all virtual benches are one place. */
+function placesOf(here) {
+  const all = here.stations ?? [];
+  return all.every((s) => s.bench) ? all.slice(0, 1) : all.filter((s) => !s.bench);
+}
+
 let entered = false;
 const lastKnown = () => entered;
 function remember(here) {
   entered = !!here.entered;
   put(
     document.getElementById("where"),
-    here.station
-      ? [
-          h("span", { title: here.station }, here.station.replace(/ \(.*\)$/, "")),
-          here.simulated ? simulatedBadge() : null,
-        ]
-      : [],
+    placesOf(here).map((s) => [
+      h("span", { title: s.title }, s.title.replace(/ \(.*\)$/, "")),
+      s.simulated ? simulatedBadge() : null,
+    ]),
   );
   const records = here.records ? `: ${here.records}` : "";
   say(

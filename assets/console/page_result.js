@@ -9,6 +9,7 @@ import {
   moment,
   outcome,
   pictureName,
+  plural,
   sessionState,
   taskName,
   who,
@@ -22,6 +23,8 @@ function verdict(session) {
   if (session.state === "failed") return ["bad", session.message || "The session failed."];
   if (session.state === "interrupted")
     return ["note", `The session ended without a report. ${session.message || ""}`];
+  if (session.blind)
+    return ["none", `${plural(results.length, "trial")} recorded; the study is blind.`];
   const counting = results.filter((r) => r.outcome !== "void"),
     good = counting.filter((r) => r.outcome === "success");
   if (counting.length === 0)

@@ -1,5 +1,5 @@
 // A new session: a few choices, all with a default. When one is on already, it is shown instead.
-import { list, post } from "./api.js";
+import { list, me as whoAmI, post } from "./api.js";
 import { h, put } from "./dom.js";
 import { isOn, taskName } from "./format.js";
 import { choice, during, field, notice, offer, radios, tick } from "./parts.js";
@@ -104,6 +104,7 @@ function form(tasks, trainees, me, chosenTrainee) {
     patient,
     "0 is the average patient; each other number is another patient, always the same one.",
   );
+  let gaveWay = false; // the person, to a task whose tool no mouse can hold
   const heldAt = h("p", { class: "muted", id: "held-at" });
   const follow = () => {
     const now = tasks.find((t) => t.id === task.value()),
@@ -114,12 +115,6 @@ function form(tasks, trainees, me, chosenTrainee) {
     patientField.hidden = !options.includes("patient_seed");
     const place = (me.stations ?? []).find((s) => s.kind === now?.station);
     put(heldAt, stationWords(place));
-    // Only the virtual bench has a second device, and can have another thing on it.
-    fingers.node.hidden =
-      !place?.simulated || !options.includes("fingers") || operator.value() === "person";
-    const surfaces = place?.simulated ? (now?.surfaces ?? []) : [];
-    surfaceField.hidden = surfaces.length === 0;
-    offer(surface, [["", "as the task has it"], ...surfaces.map((s) => [s, s])]);
     // A mouse on the virtual bench holds some tools only; a device at a station holds its own.
     const person = operator.node.querySelector("input[value=person]"),
       held = me.display && (now?.by_mouse !== false || !place?.bench);
@@ -132,7 +127,19 @@ function form(tasks, trainees, me, chosenTrainee) {
           ? "A mouse cannot hold this task's tool: it needs a station with a haptic device."
           : "This station has no display: a person cannot train here now.",
     );
-    if (!held && person.checked) operator.node.querySelector("input[value=expert]").checked = true;
+    const expert = operator.node.querySelector("input[value=expert]");
+    if (!held && person.checked) {
+      expert.checked = gaveWay = true;
+    } else if (held && gaveWay) {
+      person.checked = expert.checked;
+      gaveWay = false;
+    }
+    // Only the virtual bench has a second device, and can have another thing on it.
+    fingers.node.hidden =
+      !place?.simulated || !options.includes("fingers") || operator.value() === "person";
+    const surfaces = place?.simulated ? (now?.surfaces ?? []) : [];
+    surfaceField.hidden = surfaces.length === 0;
+    offer(surface, [["", "as the task has it"], ...surfaces.map((s) => [s, s])]);
     const assess = kind.node.querySelector("input[value=assess]");
     assess.disabled = now?.assessable === false;
     if (assess.disabled && assess.checked)
@@ -208,12 +215,13 @@ function form(tasks, trainees, me, chosenTrainee) {
   );
 }
 
-export async function show({ root, open, me, query }) {
+export async function show({ root, open, query }) {
   open("Start a session");
-  const [tasks, trainees, sessions] = await Promise.all([
+  const [tasks, trainees, sessions, me] = await Promise.all([
     list("/api/tasks"),
     list("/api/trainees"),
     list("/api/sessions"),
+    whoAmI(true), // a station may have been calibrated since
   ]);
   const on = sessions.find(isOn);
   if (on) {

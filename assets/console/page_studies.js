@@ -31,10 +31,11 @@ function enrolled(study) {
 }
 
 function nextBlock(study, trainees, me) {
-  const waiting = (study.enrolled || []).filter((e) => e.next),
+  const agrees = (t) => t.research_utc || t.experience === kSimulated,
+    may = new Set(trainees.filter(agrees).map((t) => t.id));
+  const waiting = (study.enrolled || []).filter((e) => e.next && may.has(e.trainee)),
     known = new Set((study.enrolled || []).map((e) => e.trainee));
   const fits = trainees.filter((t) => !known.has(t.id) && (study.groups || []).includes(t.group)),
-    agrees = (t) => t.research_utc || t.experience === kSimulated,
     fresh = fits.filter(agrees),
     silent = fits.filter((t) => !agrees(t)).map((t) => t.id);
   const asked = silent.length

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "anatomy/base/error.h"
@@ -62,6 +63,7 @@ struct SceneView::Impl {
   EyeCopier copier{window};
   Panels panels;
   std::array<int, 2> size{0, 0};
+  bool turn_full = false;  ///< to full screen or back, with the next frame
 };
 
 SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patient,
@@ -136,6 +138,8 @@ void SceneView::Impl::paintStills() {
 }
 
 void SceneView::Impl::show(const SceneState& state) {
+  if (std::exchange(turn_full, false))
+    context.setFullScreen(!context.place().value_or(WindowPlace{}).full_screen);
   place();
   trail.update(state.trail_A);
   ar.update(state);
@@ -211,8 +215,9 @@ void SceneView::copyEye(std::size_t eye, const TextureTarget& target) const {
 ViewInput SceneView::poll() {
   if (!impl_->input) return {};
   ViewInput input = impl_->input->poll();
+  // With the next frame: the window system may take its time, and other keys are not to wait.
   if (std::count(input.keys.begin(), input.keys.end(), kFullScreenKey) % 2 == 1)
-    impl_->context.setFullScreen(!impl_->context.place().value_or(WindowPlace{}).full_screen);
+    impl_->turn_full = !impl_->turn_full;
   const auto [width, height] = impl_->size;
   const Eigen::Vector2d mouse =
       inEyesPicture({input.mouse_x, input.mouse_y}, width, height, impl_->layout.stereo);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include "anatomy/base/error.h"
 #include "scene/window/x11_server.h"
@@ -88,6 +89,13 @@ Frame frameOf(::Display* display, ::Window window) {
   return frame;
 }
 
+/// Of RandR since 1.5; an older server ends programs that ask.
+bool knowsMonitors(::Display* display) {
+  int events = 0, errors = 0, major = 0, minor = 0;
+  return XRRQueryExtension(display, &events, &errors) && XRRQueryVersion(display, &major, &minor) &&
+         std::pair(major, minor) >= std::pair(1, 5);
+}
+
 std::string listed(const std::vector<Monitor>& all) {
   std::string words;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -103,7 +111,8 @@ std::vector<Monitor> monitors() {
   if (display == nullptr) return {};
   int count = 0;
   const std::unique_ptr<XRRMonitorInfo, MonitorsFreeing> found(
-      XRRGetMonitors(display, DefaultRootWindow(display), True, &count));
+      knowsMonitors(display) ? XRRGetMonitors(display, DefaultRootWindow(display), True, &count)
+                             : nullptr);
   std::vector<Monitor> all;
   for (int i = 0; i < count; ++i) {
     const XRRMonitorInfo& one = found.get()[i];

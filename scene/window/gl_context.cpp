@@ -42,7 +42,7 @@ std::unique_ptr<GlContextProvider> offscreen(const WindowPlace& place) {
   try {
     return remember(PlatformChoice::egl, makeEglWindow(place.width, place.height, chosen_gpu));
   } catch (const Error&) {
-    if (process_kind == PlatformChoice::egl || !whyNoX11().empty()) throw;
+    if (process_kind == PlatformChoice::egl || chosen_gpu.card > 0 || !whyNoX11().empty()) throw;
   }
   return onX11(place, nullptr);
 }

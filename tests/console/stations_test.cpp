@@ -81,6 +81,18 @@ TEST(Stations, TheChosenOneIsKeptWhateverItsName) {
   EXPECT_EQ(stationFile(place, StationKind::needle), "") << "it was removed";
 }
 
+/// Choosing anew is the way out of settings, or a file, that cannot be read.
+TEST(Stations, AnotherCanBeChosenWhereTheOldOneIsDamaged) {
+  const ConsolePlace place = placeIn("stations_way_out");
+  std::ofstream(place.home / "damaged.json") << "{";
+  std::ofstream(place.settings()) << R"({"station": ")" << (place.home / "damaged.json").string()
+                                  << "\"}";
+  EXPECT_THROW(stationFile(place, StationKind::touch), Error);
+  chooseStation(place, shipped("stations/falcon.json"));
+  EXPECT_EQ(stationFile(place, StationKind::needle), shipped("stations/falcon.json"));
+  EXPECT_EQ(stationFile(place, StationKind::touch), "");
+}
+
 /// Never the virtual bench in silence where another station was chosen: an error that says which
 /// file it is.
 TEST(Stations, DamagedSettingsAreSaid) {

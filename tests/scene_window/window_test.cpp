@@ -110,13 +110,19 @@ TEST_F(Window, StandsOnTheMonitorOfOnesChoiceFillsItAndComesBack) {
   EXPECT_FALSE(context->place()->full_screen);
   ASSERT_TRUE(person("mousemove 960 400"));  // over the window's middle
   ASSERT_TRUE(person("key F11"));
-  pollUntil(view, [&](const ViewInput&) { return context->place()->full_screen; });
+  pollUntil(view, [&](const ViewInput&) {
+    view.show({});
+    return context->place()->full_screen;
+  });
   view.show({});
   EXPECT_EQ(view.capture().width, 640);
   EXPECT_EQ(view.capture().height, 800);
   EXPECT_EQ(context->place()->width, 400) << "where it goes back to";
   ASSERT_TRUE(person("key F11"));
-  pollUntil(view, [&](const ViewInput&) { return !context->place()->full_screen; });
+  pollUntil(view, [&](const ViewInput&) {
+    view.show({});
+    return !context->place()->full_screen;
+  });
   view.show({});
   EXPECT_EQ(view.capture().width, 400);
   EXPECT_EQ(view.capture().height, 300);
