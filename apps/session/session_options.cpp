@@ -157,8 +157,8 @@ void settleOperator(SessionOptions& o, const station::Station& station) {
 
 void settle(SessionOptions& o) {
   if (o.display == scene::Display::automatic) {
-    const bool shown = !o.fast && !o.no_views && !o.headset;
-    if (shown && scene::isWaylandAlone())
+    const bool shown = !o.fast && !o.no_views;
+    if (shown && !o.headset && scene::isWaylandAlone())
       throw UsageError(scene::whyNoX11(), "the window", scene::adviceWithoutX11());
     o.display =
         shown && std::getenv("DISPLAY") ? scene::Display::window : scene::Display::offscreen;

@@ -53,6 +53,15 @@ TEST_F(Study, LeadsThroughASessionAndItsQuestions) {
   EXPECT_TRUE(says(runTrainee().out, "Finished: all of small"));  // and no trial more
   EXPECT_EQ(records.trials().size(), 2u);
   EXPECT_EQ(record::StudyStore(records).answers("small", "T001").size(), 8u);
+
+  // A page for whoever must not know the condition.
+  std::vector<std::string> report{"report", "trainee", "--id",      "T001",
+                                  "--out",  "R",       "--records", "records.sqlite"};
+  EXPECT_EQ(palpa(report, here.path()).exit_code, 0);
+  report.insert(report.end(), {"--leave-out-study", "small"});
+  const Outcome blind = palpa(report, here.path());
+  EXPECT_EQ(blind.exit_code, 2);
+  EXPECT_TRUE(says(blind.err, "has no trials")) << blind.err;
 }
 
 /// Whatever the moment: nothing that ended is lost, nothing is done twice.
