@@ -24,8 +24,9 @@ struct Surroundings {
 
 /// The part of the tool's area, as it is seen in `panel`, that lies under a plate; 0 to 1.
 double shareUnder(const Rect& plate, const Surroundings& surroundings, const Rect& panel);
-/// Of the tool; together, too.
-inline constexpr double kMostCovered = 0.05;
+/// Of the tool; together, too. 5 % are promised: the tool is known here by its axis and some places
+/// across it.
+inline constexpr double kMostCovered = 0.04;
 /// A plate covers no point, nor more of the tool than that.
 bool isClear(const Rect& plate, const Surroundings& surroundings, const Rect& panel);
 /// The plate on the panel's other side.
