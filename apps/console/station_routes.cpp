@@ -101,8 +101,12 @@ json calibration(Console& c, StationKind kind) {
            {"stations", json::array()},
            {"steps", json::array()},
            {"calibrations", json::array()}};
-  for (const StationKind one : kStationKinds) all["stations"].push_back(described(c, one));
-  if (const json stands = described(c, kind); !stands.contains("bench")) {
+  json stands;
+  for (const StationKind one : kStationKinds) {
+    all["stations"].push_back(described(c, one));
+    if (one == kind) stands = all["stations"].back();
+  }
+  if (!stands.contains("bench")) {  // it cannot be read
     all["station"] = stands["title"];
     all["verdict"] = stands["trouble"];
     all["all"] = false;

@@ -105,7 +105,7 @@ DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& pa
   DesktopStage stage;
   stage.context = scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
                                        place, "Palpa");
-  stage.renderer = stage.context->renderer();
+  if (window) stage.renderer = stage.context->renderer();
   stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
   return stage;
 }

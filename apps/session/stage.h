@@ -14,7 +14,7 @@ namespace palpa::session {
 struct DesktopStage {
   std::unique_ptr<scene::GlContextProvider> context;
   std::unique_ptr<scene::SceneView> view;
-  std::string renderer = {};  ///< what draws, as OpenGL names it
+  std::string renderer = {};  ///< of a window: what draws, as OpenGL names it
 };
 
 /// Where a window is to be: as it was asked for, else as it was left last, else four fifths of the

@@ -28,7 +28,7 @@ class SessionTime {
 
 const kBlind =
   "This session belongs to a study whose educators are blind: you see how it stands, which trial " +
-  "it is, its time, alarms and your notes. Pictures, forces and results could tell the condition " +
+  "it is, its time, stops and your notes. Pictures, forces and results could tell the condition " +
   "that was drawn; they are read with the study's.";
 
 function figures(blind) {

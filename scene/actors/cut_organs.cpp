@@ -40,11 +40,6 @@ Rgb faceOf(Organ organ, const Rgb& colour) {
   return face;
 }
 
-Rgb plainColourOf(const anatomy::OrganSurface& organ) {
-  const bool white = organ.rgba[0] == 1 && organ.rgba[1] == 1 && organ.rgba[2] == 1;
-  return white ? organColour(organ.organ) : Rgb{organ.rgba[0], organ.rgba[1], organ.rgba[2]};
-}
-
 vtkSmartPointer<vtkPlane> planeAt(const Section& section, double behind) {
   const Vec3 p = section.p_A + behind * section.n_A;
   auto plane = vtkSmartPointer<vtkPlane>::New();

@@ -34,10 +34,6 @@ double translucentOpacity(Organ organ) {
   return organ == Organ::muscle ? 0.24 : 1;
 }
 
-bool isPlainWhite(const std::array<float, 4>& rgba) {
-  return rgba[0] == 1 && rgba[1] == 1 && rgba[2] == 1;
-}
-
 bool hasPicture(const anatomy::OrganSurface& organ) {
   const anatomy::RgbPicture& texture = organ.texture;
   return texture.width > 0 && texture.height > 0 &&
@@ -47,8 +43,8 @@ bool hasPicture(const anatomy::OrganSurface& organ) {
 
 // White under a picture means the picture's own colours.
 Rgb colourOf(const anatomy::OrganSurface& organ) {
-  if (isPlainWhite(organ.rgba) && !hasPicture(organ)) return organColour(organ.organ);
-  return {organ.rgba[0], organ.rgba[1], organ.rgba[2]};
+  return hasPicture(organ) ? Rgb{organ.rgba[0], organ.rgba[1], organ.rgba[2]}
+                           : plainColourOf(organ);
 }
 
 // Both count rows in the direction of v, so that the first row lies at v = 0.
@@ -99,6 +95,11 @@ const anatomy::OrganSurface* seenSkin(const anatomy::Patient& patient) {
   for (const anatomy::OrganSurface& organ : patient.organs)
     if (organ.organ == Organ::skin && !organ.mesh.triangles.empty()) return &organ;
   return nullptr;
+}
+
+Rgb plainColourOf(const anatomy::OrganSurface& organ) {
+  const auto& [r, g, b, a] = organ.rgba;
+  return r == 1 && g == 1 && b == 1 ? organColour(organ.organ) : Rgb{r, g, b};
 }
 
 bool coversOrgans(Organ organ) { return organ == Organ::skin || organ == Organ::muscle; }

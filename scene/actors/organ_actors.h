@@ -13,6 +13,7 @@
 #include "anatomy/patient.h"
 #include "anatomy/query/skin_dimple.h"
 #include "scene/actors/glass.h"
+#include "scene/palette.h"
 #include "scene/scene_state.h"
 
 class vtkActor;
@@ -25,6 +26,9 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh);
 
 /// The skin that the large view shows; null: it has none.
 const anatomy::OrganSurface* seenSkin(const anatomy::Patient& patient);
+
+/// Its own, or where its file gives none (plain white) that of its kind; its picture apart.
+Rgb plainColourOf(const anatomy::OrganSurface& organ);
 
 /// Lies over the organs and hides them: skin, muscle.
 bool coversOrgans(Organ organ);

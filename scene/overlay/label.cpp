@@ -111,6 +111,14 @@ int textWidth(const std::string& text, const TextStyle& style) {
   return box[1] - box[0] + 1;
 }
 
+std::optional<ScaleBar> scaleBar(std::span<const int> lengths_mm, double metres_a_pixel,
+                                 double longest_px) {
+  for (const int mm : lengths_mm)
+    if (const auto px = static_cast<int>(std::lround(1e-3 * mm / metres_a_pixel)); px <= longest_px)
+      return ScaleBar{mm, px};
+  return std::nullopt;
+}
+
 int lineHeight(const TextStyle& style) { return style.size_px * 13 / 10; }
 
 Label::Label(vtkRenderer& renderer) : renderer_(renderer) {

@@ -2,6 +2,8 @@
 
 #include <vtkNew.h>
 
+#include <optional>
+#include <span>
 #include <string>
 
 #include "scene/palette.h"
@@ -52,6 +54,14 @@ int textWidth(const std::string& text, const TextStyle& style);  ///< pixels
 int lineHeight(const TextStyle& style);                          ///< pixels, one line
 
 enum class Align { left, centre, right };
+
+/// Of a picture: a length to compare with.
+struct ScaleBar {
+  int mm = 0, px = 0;
+};
+/// The first of these lengths that takes no more than `longest_px`; nothing where none does.
+std::optional<ScaleBar> scaleBar(std::span<const int> lengths_mm, double metres_a_pixel,
+                                 double longest_px);
 
 /// One line of text in a renderer; x and y are pixels of its viewport, y the line's middle.
 class Label {

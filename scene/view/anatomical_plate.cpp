@@ -204,17 +204,12 @@ class PlatePage {
   }
 
   void bar() {
-    const auto pixels = [&](int mm) {
-      return static_cast<int>(std::lround(1e-3 * mm / sight_.metres_a_pixel));
-    };
-    const auto found = std::find_if(kBars_mm.begin(), kBars_mm.end(), [&](int mm) {
-      return pixels(mm) <= kBarLongest * sight_.width;
-    });
-    if (found == kBars_mm.end()) return;
+    const auto length = scaleBar(kBars_mm, sight_.metres_a_pixel, kBarLongest * sight_.width);
+    if (!length) return;
     const Rgb& ink = colour::kInk;
-    const int wide = pixels(*found), x = sight_.width - text_ - wide;
-    bar_.add({x, text_, wide, text_ / 4}, {ink[0], ink[1], ink[2], 1}, 0);
-    put(std::to_string(*found) + " mm", {text_, false, ink}, x + wide / 2,
+    const int x = sight_.width - text_ - length->px;
+    bar_.add({x, text_, length->px, text_ / 4}, {ink[0], ink[1], ink[2], 1}, 0);
+    put(std::to_string(length->mm) + " mm", {text_, false, ink}, x + length->px / 2,
         text_ * 3 / 2 + lineHeight({text_}) / 2, Align::centre);
   }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "anatomy/base/error.h"
 #include "scene/actors/organ_actors.h"
@@ -95,16 +94,12 @@ class Tile {
         where.height - margin - line / 2, Align::left);
     put(aspect.left, style, margin, where.height / 2, Align::left);
     put(aspect.right, style, where.width - margin, where.height / 2, Align::right);
-    const auto pixels = [&](int mm) {
-      return static_cast<int>(std::lround(1e-3 * mm / metres_a_pixel));
-    };
-    const auto fits = [&](int mm) { return pixels(mm) <= kBarShare * where.width; };
-    const auto found = std::find_if(kScaleBars_mm.begin(), kScaleBars_mm.end(), fits);
-    if (found == kScaleBars_mm.end()) return;
-    const int bar = pixels(*found);
+    const auto bar = scaleBar(kScaleBars_mm, metres_a_pixel, kBarShare * where.width);
+    if (!bar) return;
     const Rgb& ink = colour::kText;
-    plates_.add({where.width - margin - bar, margin, bar, 3}, {ink[0], ink[1], ink[2], 1}, 0);
-    put(std::to_string(*found) + " mm", style, where.width - margin, margin + 6 + line / 2,
+    plates_.add({where.width - margin - bar->px, margin, bar->px, 3}, {ink[0], ink[1], ink[2], 1},
+                0);
+    put(std::to_string(bar->mm) + " mm", style, where.width - margin, margin + 6 + line / 2,
         Align::right);
   }
   void put(const std::string& words, const TextStyle& style, int x, int y, Align align) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "anatomy/base/random.h"
 #include "apps/record/session_file.h"
 #include "apps/runtime/stop_switch.h"
@@ -56,15 +58,20 @@ class Interrupter {
 template <class Hold>
 void expectMostFinish(SessionOptions options, double latest_s, const Hold& hold) {
   const int sessions = palpa::test::counted(4, 50);
-  int finished = 0;
+  int finished = 0, interrupted = 0;
   for (int i = 1; i <= sessions; ++i) {
     options.seed = static_cast<std::uint64_t>(i);
     const Interrupter interrupter(options.seed, latest_s);
     options.meanwhile = interrupter;
     const std::filesystem::path folder = freshPlace("paused");
     hold(options, folder);
-    const record::RecordedTrial trial =
-        record::SessionReader(folder / "session.palpa").trials().at(0);
+    const record::SessionReader evidence(folder / "session.palpa");
+    const record::RecordedTrial trial = evidence.trials().at(0);
+    const auto events = evidence.events();
+    interrupted += std::any_of(events.begin(), events.end(), [](const runtime::Event& event) {
+      return event.trial == 1 &&
+             (event.is(runtime::EventKind::pause) || event.is(runtime::EventKind::emergency_stop));
+    });
     const bool good = trial.end.outcome == "success" || trial.end.outcome == "done";
     finished += good;
     if (!good)
@@ -72,12 +79,15 @@ void expectMostFinish(SessionOptions options, double latest_s, const Hold& hold)
                   interrupter.words().c_str());
   }
   EXPECT_GE(finished, sessions - sessions / 25) << "of " << sessions;
+  std::printf("%d of %d interrupted in their trial, %d finished\n", interrupted, sessions,
+              finished);
+  EXPECT_GE(interrupted, sessions / 2) << "the others were over before, or not begun";
 }
 
 TEST(Paused, ANeedleGoesOnAndReachesTheVein) {
   NeedleWorld world(quick(OperatorKind::expert));
   world.station.camera_rate_Hz = 1;
-  expectMostFinish(quick(OperatorKind::expert), 40,
+  expectMostFinish(quick(OperatorKind::expert), 20,
                    [&](const SessionOptions& options, const std::filesystem::path& folder) {
                      runNeedleSession(options, world, folder);
                    });
