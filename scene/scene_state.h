@@ -156,8 +156,15 @@ struct Hud {
   std::string note;     ///< what to bear in mind: "scaled force: ..."
   std::optional<Timeline> timeline = {};  ///< of a replay
   std::optional<ColourScale> scale = {};  ///< of a map: the view fills it in
+  std::string can_do = {};  ///< what a person can do now; smaller, and where there is no notice
 
   bool operator==(const Hud&) const = default;
+};
+
+/// A key, or several, and what they do.
+struct KeyHelp {
+  std::string key, words;
+  bool operator==(const KeyHelp&) const = default;
 };
 
 struct SceneState {
@@ -204,6 +211,7 @@ struct SceneState {
   /// Where the body is that is shown as made in A: a thing in the hands moves. AR view only, and
   /// not while it is translucent
   Pose X_AB = Pose::Identity();
+  std::vector<KeyHelp> help;  ///< over the view while somebody asks; empty: nobody does
 };
 
 }  // namespace palpa::scene

@@ -219,7 +219,7 @@ constexpr Routine kRoutines[] = {
     {std::nullopt,
      "Everything, one after the other, with a page that says whether the station is ready",
      "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: "
-     "palpa paracentesis --station station3/station.json --seed 3"}};
+     "palpa subclavian --station station3/station.json --seed 3"}};
 
 void addFiles(CLI::App* command, CalibrateOptions* o) {
   const std::optional<CalibrationKind> kind = o->kind;

@@ -18,7 +18,10 @@ void addCommands(CLI::App& program);
 /// them are told, what an action throws comes through.
 int runCommand(std::vector<std::string> words);
 
-void addParacentesis(CLI::App& program);
+/// `palpa subclavian`; also by the name of before, which every dictionary gives to a tap of the
+/// abdomen.
+inline constexpr const char* kNameOfBefore = "paracentesis";
+void addSubclavian(CLI::App& program);
 void addPalpation(CLI::App& program);
 void addSqueeze(CLI::App& program);
 void addFriction(CLI::App& program);

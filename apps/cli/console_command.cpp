@@ -9,10 +9,10 @@
 #include "apps/cli/arguments.h"
 #include "apps/cli/values.h"
 #include "apps/console/console.h"
+#include "apps/evidence/told_events.h"
 #include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
 #include "apps/os/local_socket.h"
-#include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
@@ -63,7 +63,7 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.port = o.port;
   s.token = tokenIn(o.token_file);
   s.names = o.names;
-  s.tone = session::toneOfEvent;
+  s.tone = evidence::toneOfEvent;
   if (!o.station.empty()) {
     station::readStation(o.station);  // refused here, where somebody reads it
     s.station = fs::absolute(o.station).string();

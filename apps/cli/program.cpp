@@ -16,10 +16,10 @@ Nothing is connected? Everything runs on the virtual bench. What you can do now:
 
   palpa console                            the educator's pages in a browser: everything below by mouse
                                            (palpa alone opens them where there is a display)
-  palpa paracentesis                       a session: with a display you hold the needle with the mouse,
+  palpa subclavian                       a session: with a display you hold the needle with the mouse,
                                            without one a simulated expert performs it
-  palpa paracentesis --operator novice     watch a simulated novice; read the report's reasons
-  palpa paracentesis --trials 10 --fast    ten trials, as fast as this computer can
+  palpa subclavian --operator novice     watch a simulated novice; read the report's reasons
+  palpa subclavian --trials 10 --fast    ten trials, as fast as this computer can
   palpa palpation --operator expert --fast search a soft phantom for virtual lumps that can be felt
   palpa search --operator expert --fast    find the rough one of three things on a floor that is felt, not seen
   palpa replay out/.../session.palpa       run a recorded session again: same forces, same score
@@ -42,11 +42,11 @@ void addCommands(CLI::App& program) {
   program.add_flag("--verbose")
       ->description("Anywhere: when something fails, tell as well what a library said of it");
   program.footer(
-      "Examples:\n  palpa paracentesis --operator expert --seed 1 --fast --out A\n"
-      "  palpa paracentesis --help");
+      "Examples:\n  palpa subclavian --operator expert --seed 1 --fast --out A\n"
+      "  palpa subclavian --help");
   program.require_subcommand(0, 1);
   program.parse_complete_callback([&program] { refuseLackingValues(program); });
-  addParacentesis(program);
+  addSubclavian(program);
   addPalpation(program);
   addSqueeze(program);
   addFriction(program);
@@ -75,6 +75,8 @@ void addCommands(CLI::App& program) {
 int runCommand(std::vector<std::string> words) {
   CLI::App program;
   addCommands(program);
+  const bool by_old_name = !words.empty() && words.front() == kNameOfBefore;
+  if (by_old_name) std::fprintf(stderr, "palpa %s is called palpa subclavian now\n", kNameOfBefore);
   std::reverse(words.begin(), words.end());  // as the library wants them
   try {
     program.parse(std::move(words));

@@ -279,7 +279,7 @@ constexpr RecordsExample kRecordsExamples[] = {
     {"show", "show --id T001"},
     {"overdue", "overdue\n  palpa records overdue --delete --yes"},
     {"delete", "delete --id T001 --yes"},
-    {"add", "add out/paracentesis-20260301-120000"},
+    {"add", "add out/subclavian-20260301-120000"},
     {"deliver", "deliver"},
     {"backup", "backup --out records-2026-03-01.sqlite"},
     {"restore", "restore --from records-2026-03-01.sqlite --records ~/new.sqlite"},
@@ -306,8 +306,8 @@ void addRecords(CLI::App& program) {
   command->require_subcommand(1);
   command->footer(
       "Examples:\n  export PALPA_RECORDS=~/records.sqlite\n  palpa records trainee add --id T001 "
-      "--group novice --consent\n  palpa paracentesis --trainee T001\n  palpa records add "
-      "out/paracentesis-20260301-120000\n"
+      "--group novice --consent\n  palpa subclavian --trainee T001\n  palpa records add "
+      "out/subclavian-20260301-120000\n"
       "  palpa records show --id T001\n  palpa records export --all --out data\n  palpa records "
       "backup --out records-2026-03-01.sqlite\n  palpa records delete --id T001 --yes");
   const auto o = std::make_shared<RecordsOptions>();

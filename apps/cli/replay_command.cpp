@@ -182,7 +182,7 @@ void addReplay(CLI::App& program) {
       "replay",
       "Run a recorded session again: same forces, same score; or see a trial of it again");
   command->footer(
-      "Examples:\n  palpa replay out/paracentesis-20260301-120000/session.palpa\n  palpa replay "
+      "Examples:\n  palpa replay out/subclavian-20260301-120000/session.palpa\n  palpa replay "
       "out/A/session.palpa --view --trial 2 --speed 0.5\n  palpa replay out/A/session.palpa "
       "--video trial.mp4\n  palpa replay out/A/session.palpa --pictures moments --fps 5 --size "
       "960x540\n  palpa replay out/search/session.palpa --figures figures --trial 2");
@@ -250,7 +250,7 @@ namespace {
 constexpr const char* kFinishExamples = R"(Examples:
   palpa finish
       which sessions ended before their report: killed, or the computer stopped
-  palpa finish out/paracentesis-20260301-120000
+  palpa finish out/subclavian-20260301-120000
       makes the report and the table of one from its evidence, and brings its trials into the records noted for it
   palpa finish out/A/session.palpa --again
       makes both again, where they are there already

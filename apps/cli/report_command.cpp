@@ -102,7 +102,7 @@ report::BesideTrial besideOf(const TrialReportOptions& o) {
 void needsPath(const evidence::RecordedSession& session, const std::string& file) {
   if (session.hasGoal() || session.reader().info().expert_path_json.empty())
     throw UsageError("has no expert path: there is no technique to judge", file,
-                     "Choose a session of paracentesis");
+                     "Choose a session of palpa subclavian");
 }
 
 void reportTrial(const TrialReportOptions& o) {
@@ -119,7 +119,7 @@ void reportTrial(const TrialReportOptions& o) {
   page.certification = competence::whatCannotBeCertified(1);
   page.beside = besideOf(o);
   report::SessionReport whole;
-  whole.title = "Paracentesis, trial " + std::to_string(o.trial);
+  whole.title = "Subclavian access, trial " + std::to_string(o.trial);
   whole.trainee = facts.value("trainee", "");
   whole.simulated = session.simulated();
   whole.when = session.reader().info().started_utc;
@@ -234,7 +234,7 @@ void reportCohort(const ReportOptions& o) {
 void addPageArguments(CLI::App& command, ReportOptions& o) {
   addRecordsArgument(command, o.url);
   command.add_option("--task", o.choice.task,
-                     "Only trials of this command: paracentesis, palpation, search, squeeze, "
+                     "Only trials of this command: subclavian, palpation, search, squeeze, "
                      "friction, pulse");
   command
       .add_option("--leave-out-study", o.choice.left_out,
@@ -261,7 +261,7 @@ void addReport(CLI::App& program) {
   command->require_subcommand(1);
   command->footer(
       "Examples:\n  palpa report trial out/A --beside out/expert --out trial.html\n  palpa report "
-      "trainee --id T017 --out out/T017\n  palpa report cohort --group novice --task paracentesis "
+      "trainee --id T017 --out out/T017\n  palpa report cohort --group novice --task subclavian "
       "--out out/novices");
   const auto o = std::make_shared<ReportOptions>();
   CLI::App* trainee = command->add_subcommand(
@@ -277,7 +277,7 @@ void addReport(CLI::App& program) {
   cohort->add_option("--group", o->choice.group, "Only trainees of this group; default: all");
   addPageArguments(*cohort, *o);
   cohort->footer(
-      "Example:\n  palpa report cohort --group novice --task paracentesis --out out/novices");
+      "Example:\n  palpa report cohort --group novice --task subclavian --out out/novices");
   cohort->callback([o] { reportCohort(*o); });
   addReportTrial(*command);
 }

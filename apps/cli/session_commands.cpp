@@ -9,6 +9,7 @@
 #include "apps/session/whole_session.h"
 #include "apps/station/assets.h"
 #include "apps/training/engine.h"
+#include "apps/trial/keys.h"
 
 namespace palpa::cli {
 
@@ -16,30 +17,37 @@ using training::Engine;
 
 namespace {
 
-constexpr const char* kSessionExamples = R"(Examples:
-  palpa paracentesis
-      a session; with a display you hold the needle (mouse: drag = over the skin, wheel = along the
-      needle, arrows = turn, Z/X (left-handed: period/comma) = plunger, T = skin, space = EMERGENCY STOP)
-  palpa paracentesis --operator expert --seed 1 --fast --out A
-      a simulated expert, in virtual time: the same command gives the same numbers
-  palpa paracentesis --operator novice --force-feedback off --trials 5 --fast
-      the same without force feedback, five trials
-  palpa paracentesis --operator expert --trials 100 --fast --no-views --tracking model
-      many trials in little time: the board is tracked without drawing the camera's pictures
-  palpa paracentesis --camera 'shots/left*.jpg' --intrinsics left.yml --board chessboard:9x6:0.025 --fast
-      the patient on your own recorded pictures
-  palpa paracentesis --igtl 18944
-      the same session in 3D Slicer: there, an OpenIGTLink connector, client, localhost, port 18944
-Keys in a session: Enter start or continue, P pause, A abort, F1-F4 void (interrupted, technical fault,
-trainee stopped, other), space emergency stop, R re-arm, Escape leave.)";
+std::string withKeys(const char* examples, Engine engine) {
+  return examples + ("\n" + trial::keysText(engine));
+}
 
 }  // namespace
 
-void addParacentesis(CLI::App& program) {
+namespace {
+
+constexpr const char* kSessionExamples = R"(Examples:
+  palpa subclavian
+      a session; with a display you hold the needle (mouse: drag = over the skin, wheel = along the
+      needle, arrows = turn, Z/X (left-handed: period/comma) = plunger, T = skin, space = EMERGENCY STOP)
+  palpa subclavian --operator expert --seed 1 --fast --out A
+      a simulated expert, in virtual time: the same command gives the same numbers
+  palpa subclavian --operator novice --force-feedback off --trials 5 --fast
+      the same without force feedback, five trials
+  palpa subclavian --operator expert --trials 100 --fast --no-views --tracking model
+      many trials in little time: the board is tracked without drawing the camera's pictures
+  palpa subclavian --camera 'shots/left*.jpg' --intrinsics left.yml --board chessboard:9x6:0.025 --fast
+      the patient on your own recorded pictures
+  palpa subclavian --igtl 18944
+      the same session in 3D Slicer: there, an OpenIGTLink connector, client, localhost, port 18944)";
+
+}  // namespace
+
+void addSubclavian(CLI::App& program) {
   const auto options = std::make_shared<session::SessionOptions>();
   CLI::App* command = program.add_subcommand(
-      "paracentesis", "A training session: paracentesis of the subclavian vein");
-  command->footer(kSessionExamples);
+      "subclavian", "A training session: access to the subclavian vein from below the clavicle");
+  command->alias(kNameOfBefore);
+  command->footer(withKeys(kSessionExamples, Engine::needle));
   addSessionArguments(*command, *options);
   command->callback([options] { session::holdNeedleSession(*options); });
 }
@@ -72,8 +80,7 @@ constexpr const char* kPalpationExamples = R"(Examples:
       you, on a station with a haptic device and a force sensor; help that fades; every other case is without it
   palpa palpation
       you, with a display and a mouse, on the virtual bench: nothing is felt, but what a sensor feels is drawn; not scored
-Button 1 of the device: here is a lump. With a mouse: move it over the phantom, hold the left button to press, M: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
-25 mm. Keys: Enter start or continue, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+Button 1 of the device: here is a lump. With a mouse: move it over the phantom, hold the left button to press, M: here is a lump. Then say how hard, how mobile and how large it is.)";
 
 const std::map<std::string, std::string> kPresets{
     {"abdomen", "tasks/palpation_abdomen.json"},
@@ -93,7 +100,7 @@ void addPalpation(CLI::App& program) {
   options->command = "palpation";
   CLI::App* command =
       program.add_subcommand("palpation", "A training session: search soft tissue for lumps");
-  command->footer(kPalpationExamples);
+  command->footer(withKeys(kPalpationExamples, Engine::palpation));
   const auto preset = std::make_shared<std::string>("breast");
   command
       ->add_option(
@@ -148,7 +155,7 @@ void addSqueeze(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "squeeze",
       "A training session: which of two things in the hand is harder, which is heavier?");
-  command->footer(kSqueezeExamples);
+  command->footer(withKeys(kSqueezeExamples, Engine::squeeze));
   command->add_option("--task", options->task, "Task file (default: the shipped one)")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
@@ -174,8 +181,7 @@ constexpr const char* kFrictionExamples = R"(Examples:
       the same without force feedback: all are the same silicone, and the answers are guesses
   palpa friction --station my_station.json --trials 16
       you, on a station with a haptic device and a force sensor
-Stroke over the silicone; lift; D: the next surface lies there, in a circle and as often as you like. Then say which is rougher: 1 or 2. With --sort: their numbers from the smoothest to the roughest.
-Keys: Enter start or continue, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+Stroke over the silicone; lift; D: the next surface lies there, in a circle and as often as you like. Then say which is rougher: 1 or 2. With --sort: their numbers from the smoothest to the roughest.)";
 
 }  // namespace
 
@@ -185,7 +191,7 @@ void addFriction(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "friction",
       "A training session: which of two surfaces is rougher? Or several in their order");
-  command->footer(kFrictionExamples);
+  command->footer(withKeys(kFrictionExamples, Engine::friction));
   command->add_option("--task", options->task, "Task file (default: the shipped one)")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
@@ -206,8 +212,7 @@ constexpr const char* kPulseExamples = R"(Examples:
       the same without force feedback: nothing beats, and what is said is a guess
   palpa pulse --station my_station.json --trials 6
       you, on a station with a haptic device and a force sensor
-Press lightly across the artery's usual line, from the middle outward; hold still on the pulse and press the device's button: that marks it, the last mark counts. D: the count begins, and ends by itself after 30 seconds. Type the number of beats, then D. Then the rhythm: 1 regular, 2 regular with premature beats, 3 irregular.
-Keys: Enter start or continue, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+Press lightly across the artery's usual line, from the middle outward; hold still on the pulse and press the device's button: that marks it, the last mark counts. D: the count begins, and ends by itself after 30 seconds. Type the number of beats, then D. Then the rhythm: 1 regular, 2 regular with premature beats, 3 irregular.)";
 
 }  // namespace
 
@@ -216,7 +221,7 @@ void addPulse(CLI::App& program) {
   options->command = "pulse";
   CLI::App* command = program.add_subcommand(
       "pulse", "A training session: find a pulse by feel, count it, name its rhythm");
-  command->footer(kPulseExamples);
+  command->footer(withKeys(kPulseExamples, Engine::pulse));
   command->add_option("--task", options->task, "Task file (default: the shipped one)")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));
@@ -236,7 +241,7 @@ constexpr const char* kSearchExamples = R"(Examples:
       the task's blocks: baseline, training in this mode, evaluation
   palpa search --station my_station.json --mode real --trials 20
       you, on a station with a haptic device and a "floor"
-Three things lie hidden on a floor; one is rougher than the others. Find it, and stay in its middle. Keys: Enter start or continue, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+Three things lie hidden on a floor; one is rougher than the others. Find it, and stay in its middle.)";
 
 }  // namespace
 
@@ -245,7 +250,7 @@ void addSearch(CLI::App& program) {
   options->command = "search";
   CLI::App* command = program.add_subcommand(
       "search", "A training session: find the rough one of three hidden things by touch");
-  command->footer(kSearchExamples);
+  command->footer(withKeys(kSearchExamples, Engine::search));
   command->add_option("--task", options->task, "Task file (default: the shipped one)")
       ->type_name("FILE")
       ->check(somethingThere("tasks"));

@@ -182,7 +182,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
              {"simulated", wish.simulated}, {"study", !wish.protocol.empty()},
              {"blind", wish.blind},         {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
-  const os::ProcessId process = os::start(arguments, folder / kLog, false);
+  const os::ProcessId process = starter_.start(arguments, folder / kLog);
   facts["pid"] = process.pid;
   facts["began"] = process.began;
   writeWhole(folder / kFacts, facts.dump(1) + "\n");

@@ -74,6 +74,7 @@ class Sessions {
   std::string socketOf(const std::string& id) const;
 
   const ConsolePlace& place_;
+  os::ProcessStarter starter_;
   std::mutex mutex_;
   std::map<std::string, Running> running_;
   mutable std::mutex links_mutex_;  ///< held for a moment only

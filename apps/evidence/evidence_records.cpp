@@ -289,7 +289,7 @@ std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,
       if (trainee.group == choice.group) group.insert(trainee.id);
   std::vector<progress::PracticeTrial> all;
   Practice practice;
-  store.eachTrial({.trainee = choice.trainee, .task = choice.task},
+  store.eachTrial({.trainee = choice.trainee, .task = training::taskIdOf(choice.task)},
                   [&](const record::TrialWithSession& stored) {
                     const auto& out = choice.left_out;
                     if (std::find(out.begin(), out.end(), stored.session.study) != out.end())

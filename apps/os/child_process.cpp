@@ -11,15 +11,17 @@
 #include <cerrno>
 #include <cstring>
 #include <sstream>
+#include <utility>
 
 #include "anatomy/base/whole_file.h"
+#include "apps/os/real_time.h"
 
 extern char** environ;
 
 namespace palpa::os {
 namespace {
 
-constexpr int kNice = 10, kFirstOfOurs = 3;
+constexpr int kNice = 5, kFirstOfOurs = 3;
 
 struct ProcessState {
   char letter = 'X';
@@ -97,6 +99,42 @@ ProcessId start(const std::vector<std::string>& arguments, const std::filesystem
   const ProcessId process = spawn(how, arguments, log);
   if (gives_way) ::setpriority(PRIO_PROCESS, static_cast<id_t>(process.pid), kNice);
   return process;
+}
+
+ProcessStarter::ProcessStarter() : thread_(startThread([this] { run(); })) {}
+
+ProcessStarter::~ProcessStarter() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+ProcessId ProcessStarter::start(const std::vector<std::string>& arguments,
+                                const std::filesystem::path& log) {
+  std::packaged_task<ProcessId()> task([&] { return os::start(arguments, log, false); });
+  std::future<ProcessId> started = task.get_future();
+  {
+    const std::lock_guard lock(mutex_);
+    asked_.push(std::move(task));
+  }
+  changed_.notify_all();
+  return started.get();
+}
+
+void ProcessStarter::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return ending_ || !asked_.empty(); });
+    if (asked_.empty()) return;
+    std::packaged_task<ProcessId()> task = std::move(asked_.front());
+    asked_.pop();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
 }
 
 Companion startWithLine(const std::vector<std::string>& arguments) {

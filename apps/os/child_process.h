@@ -1,9 +1,13 @@
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <future>
+#include <mutex>
+#include <queue>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace palpa::os {
@@ -20,6 +24,28 @@ struct ProcessId {
 /// started it; output goes to `log`; nothing of ours stays open in it. Throws Error.
 ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log,
                 bool gives_way);
+/// Starts processes as `start` does, at the priority of the thread that made this. What a thread
+/// starts inherits its priority and may not raise it: a session that a server's thread starts,
+/// which gives way to all others, would give way as well, its haptic thread with it.
+class ProcessStarter {
+ public:
+  ProcessStarter();
+  ~ProcessStarter();
+  ProcessStarter(const ProcessStarter&) = delete;
+  ProcessStarter& operator=(const ProcessStarter&) = delete;
+
+  /// Any thread, which waits for it. Throws Error.
+  ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log);
+
+ private:
+  void run();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::queue<std::packaged_task<ProcessId()>> asked_;
+  bool ending_ = false;
+  std::thread thread_;
+};
 /// As `start`, silent, and with a line to it: what is sent there (see socket.h) it receives at its
 /// descriptor 0, and that line ends however this process does. Throws Error.
 struct Companion {

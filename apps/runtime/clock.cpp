@@ -36,10 +36,11 @@ bool comesTrue(std::chrono::milliseconds most, const std::function<bool()>& ques
   return question();
 }
 
-std::string dateText(const char* pattern, Zone zone) {
-  const std::time_t now = static_cast<std::time_t>(dateNow() / kSecond);
+std::string dateText(const char* pattern, Zone zone, std::optional<std::chrono::sys_seconds> of) {
+  const std::time_t then =
+      static_cast<std::time_t>(of ? of->time_since_epoch().count() : dateNow() / kSecond);
   std::tm parts{};
-  zone == Zone::utc ? gmtime_r(&now, &parts) : localtime_r(&now, &parts);
+  zone == Zone::utc ? gmtime_r(&then, &parts) : localtime_r(&then, &parts);
   char text[64];
   return {text, std::strftime(text, sizeof text, pattern, &parts)};
 }

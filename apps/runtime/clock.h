@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace palpa::runtime {
@@ -63,8 +64,9 @@ bool comesTrue(std::chrono::milliseconds most, const std::function<bool()>& ques
 inline constexpr std::chrono::seconds kKilledLetsGo{3};
 
 enum class Zone { utc, local };
-/// The computer's date now, in strftime's words.
-std::string dateText(const char* pattern, Zone zone = Zone::utc);
+/// The computer's date, now or then, in strftime's words.
+std::string dateText(const char* pattern, Zone zone = Zone::utc,
+                     std::optional<std::chrono::sys_seconds> of = std::nullopt);
 /// "2026-03-01T12:30:00Z"
 std::string utcNow();
 

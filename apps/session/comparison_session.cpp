@@ -162,9 +162,10 @@ ComparisonRun runComparison(const SessionOptions& options, const ComparisonWorld
   task_comparison::ComparisonChannels channels(options.fast ? runtime::TimeMode::virtual_time
                                                             : runtime::TimeMode::real);
   const haptics::TickConfig tick = world.tickConfig(options);
-  SessionFrame frame(
-      options, {world.station, world.object, world.X_WA, tick, world.pairConfig(options), false},
-      world.hands(options), channels, folder);
+  SessionFrame frame(options,
+                     {world.engine, world.station, world.object, world.X_WA, tick,
+                      world.pairConfig(options), false},
+                     world.hands(options), channels, folder);
   const std::string not_scored = world.station.calibrationProblem();
   task_comparison::ComparisonTask task(
       {.settings = world.task,
@@ -210,15 +211,15 @@ void writeComparisonResults(const ReportHead& head,
   const std::filesystem::path folder = evidence.parent_path();
   report::writeComparisonCsv(head.user_id, page.trials, folder / "trials.csv");
   if (!head.page) return;
-  page.title = head.title;
-  page.trainee = head.trainee;
-  page.simulated = head.simulated;
+  const bool rubbed =
+      !page.trials.empty() && page.trials[0].property == assess::ComparedProperty::friction;
+  static_cast<report::SessionPage&>(page) = pageOf(
+      head, tail, evidence, rubbed ? Engine::friction : Engine::squeeze,
+      judgedOf(trials, [&](const auto& t) {
+        return JudgedTrial{t.trial.role, t.trial.outcome, assess::comparisonMetrics(t.trial)};
+      }));
   page.too_hard_N = head.too_hard_N;
-  for (const trial::SavedPicture& p : tail.pictures)
-    page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
-  page.taxonomy = head.taxonomy;
-  page.station = head.station;
-  page.notes = tail.notes;
+  page.pictures = picturesOf(tail);
   report::writeComparisonReport(page, folder / "report.html");
 }
 

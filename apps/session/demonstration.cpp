@@ -95,7 +95,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   setup.mark = "DEMONSTRATION: SIMULATED EXPERT";
   setup.shown = shownIn(options);
   setup.input = [&](const scene::ViewInput& input, std::int64_t) {
-    handleKeys(input, channels, bus.stop);
+    trial::handleKeys(input, channels, bus.stop);
   };
   task_needle::NeedleScene scene(shown, bus, channels);
   executive->add(playback, {0, false, false});

@@ -24,39 +24,11 @@ constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
 
 const Vec3 kBevelUp(0, -1, 0.3);  // in A: no key turns the needle about itself
 
-constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped",
-                                        "other"};
-
 void send(trial::Channels& channels, UserCommand command, const std::string& reason = "") {
   channels.requests_to_task.push({command, reason});
 }
 
 }  // namespace
-
-void handleKeys(const scene::ViewInput& input, trial::Channels& channels,
-                runtime::StopSwitch& stop) {
-  if (input.closed) send(channels, UserCommand::quit);
-  for (const std::string& key : input.keys) {
-    if (key == "Return" || key == "KP_Enter")
-      send(channels, UserCommand::start);
-    else if (key == "p" || key == "P")
-      send(channels, UserCommand::pause);
-    else if (key == "a" || key == "A")
-      send(channels, UserCommand::abort);
-    else if (key == "space")
-      stop.press();
-    else if (key == "r" || key == "R")
-      send(channels, UserCommand::rearm);
-    else if (key == "Escape")
-      send(channels, UserCommand::quit);
-    else if (key == "d" || key == "D")
-      send(channels, UserCommand::done);
-    else if (key.size() == 1 && key[0] >= '0' && key[0] <= '9')
-      send(channels, UserCommand::choose, key);
-    else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
-      send(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
-  }
-}
 
 MouseHand::MouseHand(const MouseHandSetup& setup, runtime::ChannelDevice& device,
                      trial::Channels& channels, runtime::StopSwitch& stop)
@@ -67,7 +39,7 @@ MouseHand::MouseHand(const MouseHandSetup& setup, runtime::ChannelDevice& device
 }
 
 void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
-  handleKeys(input, channels_, stop_);
+  trial::handleKeys(input, channels_, stop_);
   const auto leads = [](const std::string& key) {
     return key == "Left" || key == "Right" || key == "Up" || key == "Down";
   };

@@ -8,16 +8,13 @@
 #include "apps/runtime/channels.h"
 #include "apps/runtime/clock.h"
 #include "apps/runtime/device_adapters.h"
+#include "apps/trial/keys.h"
 #include "apps/trial/trial_status.h"
 #include "apps/twin/hand.h"
 #include "apps/twin/operator.h"
 #include "scene/view/scene_view.h"
 
 namespace palpa::session {
-
-/// Keys that every session understands: Enter, P, A, V + 1..4, space, R, Escape.
-void handleKeys(const scene::ViewInput& input, trial::Channels& channels,
-                runtime::StopSwitch& stop);
 
 /// What a needle led by the mouse moves in.
 struct MouseHandSetup {

@@ -185,17 +185,15 @@ void writeNeedleResults(const ReportHead& head,
   report::writeTrialsCsv(head.user_id, scored, folder / "trials.csv", head.doses);
   if (!head.page) return;
   report::SessionReport page;
-  page.title = head.title;
-  page.trainee = head.trainee;
-  page.simulated = head.simulated;
+  static_cast<report::SessionPage&>(page) =
+      pageOf(head, tail, evidence, training::Engine::needle, judgedOf(trials, [&](const auto& t) {
+               return JudgedTrial{t.assessment.role, t.assessment.outcome, t.assessment.metrics};
+             }));
   const std::optional<evidence::RatingForms> forms =
       head.assessed ? std::optional(evidence::readForms("", "")) : std::nullopt;
   page.trials = pages(trials, tail.pictures, forms ? &*forms : nullptr);
   page.courses = coursesIn(evidence, X_DA);
-  page.taxonomy = head.taxonomy;
-  page.station = head.station;
   page.registration = tail.registration;
-  page.notes = tail.notes;
   page.parts = partsOf(head.parts, trials, [](const auto& t) {
     return std::tuple(t.assessment.doses, t.assessment.augmented,
                       1e-3 * t.assessment.values.time_ms);

@@ -166,7 +166,8 @@ class NeedleSession {
   task_needle::NearMissWatch near_{world_.patient, world_.query};
   SessionFrame frame_{
       options_,
-      {.station = world_.station,
+      {.engine = training::Engine::needle,
+       .station = world_.station,
        .patient = world_.patient,
        .X_WA = world_.X_WA,
        .tick = tickConfig(options_, world_),

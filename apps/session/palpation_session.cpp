@@ -229,8 +229,9 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
                                                           : runtime::TimeMode::real);
   const haptics::TickConfig tick = world.tickConfig(options);
   const std::optional<haptics::PairConfig> pair = world.pairConfig(options);
-  SessionFrame frame(options, {world.station, world.phantom, world.X_WA, tick, pair},
-                     world.hands(options), channels, folder);
+  SessionFrame frame(
+      options, {training::Engine::palpation, world.station, world.phantom, world.X_WA, tick, pair},
+      world.hands(options), channels, folder);
   task_palpation::PalpationTask task({.settings = world.task,
                                       .tick = tick,
                                       .pair = pair,
@@ -312,17 +313,16 @@ void writePalpationResults(const ReportHead& head,
   report::writePalpationCsv(head.user_id, judged, folder / "trials.csv", head.doses);
   if (!head.page) return;
   report::PalpationReport page;
-  page.title = head.title;
-  page.trainee = head.trainee;
-  page.simulated = head.simulated;
+  static_cast<report::SessionPage&>(page) = pageOf(
+      head, tail, evidence, training::Engine::palpation, judgedOf(trials, [&](const auto& t) {
+        return JudgedTrial{t.assessment.facts.role, t.assessment.facts.outcome,
+                           assess::palpationMetrics(t.assessment)};
+      }));
   page.force_note = head.force_note;
   const auto pair = record::SessionReader(evidence).info().pair_config;
   page.trials = pagesOf(scoring.rules, trials, tail.pictures, pair && pair->estimated);
   page.courses = palpationCourses(evidence);
   page.standard = scoring.standard;
-  page.taxonomy = head.taxonomy;
-  page.station = head.station;
-  page.notes = tail.notes;
   page.parts = partsOf(head.parts, trials, [](const auto& t) {
     return std::tuple(t.assessment.doses, t.assessment.facts.augmented, t.assessment.score.seconds);
   });

@@ -61,8 +61,10 @@ PulseRun runPulse(const SessionOptions& options, const PulseWorld& world,
   task_pulse::PulseChannels channels(options.fast ? runtime::TimeMode::virtual_time
                                                   : runtime::TimeMode::real);
   const haptics::TickConfig tick = world.tickConfig(options);
-  SessionFrame frame(options, {world.station, world.object, world.X_WA, tick, std::nullopt, false},
-                     world.hands(options), channels, folder);
+  SessionFrame frame(
+      options,
+      {training::Engine::pulse, world.station, world.object, world.X_WA, tick, std::nullopt, false},
+      world.hands(options), channels, folder);
   const std::string not_scored = world.station.calibrationProblem();
   task_pulse::PulseTask task(
       {.settings = world.task,
@@ -93,14 +95,11 @@ void writePulseResults(const ReportHead& head,
   const std::filesystem::path folder = evidence.parent_path();
   report::writePulseCsv(head.user_id, page.trials, rules, folder / "trials.csv");
   if (!head.page) return;
-  page.title = head.title;
-  page.trainee = head.trainee;
-  page.simulated = head.simulated;
-  for (const trial::SavedPicture& p : tail.pictures)
-    page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
-  page.taxonomy = head.taxonomy;
-  page.station = head.station;
-  page.notes = tail.notes;
+  static_cast<report::SessionPage&>(page) = pageOf(
+      head, tail, evidence, training::Engine::pulse, judgedOf(trials, [&](const auto& t) {
+        return JudgedTrial{t.trial.role, t.trial.outcome, assess::pulseMetrics(t.trial, rules)};
+      }));
+  page.pictures = picturesOf(tail);
   report::writePulseReport(page, folder / "report.html");
 }
 

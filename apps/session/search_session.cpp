@@ -140,8 +140,10 @@ SearchRun runSearch(const SessionOptions& options, const SearchWorld& world,
                                                     : runtime::TimeMode::real);
   const haptics::TickConfig tick = world.tickConfig(options);
   task_search::Floors floors(world.task, world.episodes);
-  SessionFrame frame(options, {world.station, world.plate, world.X_WA, tick, {}, false, &floors},
-                     world.hands(options), channels, folder);
+  SessionFrame frame(
+      options,
+      {training::Engine::search, world.station, world.plate, world.X_WA, tick, {}, false, &floors},
+      world.hands(options), channels, folder);
   task_search::SearchTask task({.settings = world.task,
                                 .tick = tick,
                                 .simulated = world.simulated(options),
@@ -218,15 +220,12 @@ void writeSearchResults(const ReportHead& head,
   const std::filesystem::path folder = session_file.parent_path();
   report::writeSearchCsv(head.user_id, written, folder / "trials.csv", head.doses);
   if (!head.page) return;
-  page.title = head.title;
-  page.trainee = head.trainee;
-  page.simulated = head.simulated;
+  static_cast<report::SessionPage&>(page) = pageOf(
+      head, tail, session_file, training::Engine::search, judgedOf(trials, [&](const auto& t) {
+        return JudgedTrial{t.trial.role, t.trial.outcome, assess::searchMetrics(t.trial)};
+      }));
   page.subtasks = head.parts;
-  for (const trial::SavedPicture& p : tail.pictures)
-    page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
-  page.taxonomy = head.taxonomy;
-  page.station = head.station;
-  page.notes = tail.notes;
+  page.pictures = picturesOf(tail);
   page.unit_note = head.unit_note;
   const record::SessionReader reader(session_file);
   if (evidence::hasSearchFigures(reader)) page.figures = evidence::searchFigures(reader);

@@ -10,7 +10,9 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/assess/dose_counter.h"
+#include "apps/assess/progress/errors.h"
 #include "apps/evidence/recorded_trials.h"
+#include "apps/evidence/told_events.h"
 #include "apps/report/page/style.h"
 #include "apps/runtime/clock.h"
 #include "apps/station/taken_away.h"
@@ -314,33 +316,44 @@ ReportHead headIn(const record::SessionInfo& info, const std::string& file) {
   return head;
 }
 
-using runtime::EventKind;
-
 namespace {
 
-/// "Touched: lung": lung.
-std::string meaning(const runtime::Event& event) {
-  if (!event.is(EventKind::touched) && !event.is(EventKind::wall)) return event.kind;
-  const std::size_t at = event.text.rfind(": ");
-  return at == std::string::npos ? event.kind : event.text.substr(at + 2);
+std::vector<std::string> nextAfter(training::Engine engine,
+                                   const std::vector<JudgedTrial>& trials) {
+  std::vector<progress::PracticeTrial> practice;
+  for (const JudgedTrial& trial : trials) {
+    progress::PracticeTrial one;
+    one.engine = engine;
+    one.role = trial.role;
+    one.outcome = trial.outcome;
+    for (const metrics::MetricValue& figure : trial.figures)
+      one.figures.set(figure.name, figure.value);
+    if (progress::counts(one)) practice.push_back(std::move(one));
+  }
+  return progress::practiseNext({engine, practice});
 }
 
 }  // namespace
 
-std::string toneOfEvent(const runtime::Event& event) {
-  if (event.is(EventKind::note)) return "note";
-  if (event.is(EventKind::safety) && event.text == runtime::kForceIsBack) return "neutral";
-  switch (report::toneOfMoment(meaning(event))) {
-    case report::Tone::good:
-      return "good";
-    case report::Tone::guide:
-      return "guide";
-    case report::Tone::bad:
-      return "bad";
-    case report::Tone::neutral:
-      break;
-  }
-  return "neutral";
+report::SessionPage pageOf(const ReportHead& head, const ReportTail& tail,
+                           const std::filesystem::path& evidence, training::Engine engine,
+                           const std::vector<JudgedTrial>& trials) {
+  report::SessionPage page = evidence::whatWasNoted(record::SessionReader(evidence));
+  page.title = head.title;
+  page.trainee = head.trainee;
+  page.simulated = head.simulated;
+  page.taxonomy = head.taxonomy;
+  page.station = head.station;
+  page.notes = tail.notes;
+  page.next = nextAfter(engine, trials);
+  return page;
+}
+
+std::vector<report::Picture> picturesOf(const ReportTail& tail) {
+  std::vector<report::Picture> pictures;
+  for (const trial::SavedPicture& p : tail.pictures)
+    pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
+  return pictures;
 }
 
 }  // namespace palpa::session

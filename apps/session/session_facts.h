@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/assess/metrics/metric_table.h"
 #include "apps/record/session_file.h"
 #include "apps/report/needle/session_report.h"
 #include "apps/report/palpation/palpation_report.h"
@@ -11,6 +12,8 @@
 #include "apps/session/session_frame.h"
 #include "apps/station/material_files.h"
 #include "apps/station/task_sections.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 
 /// What a report says of any session besides its trials.
 namespace palpa::session {
@@ -75,6 +78,24 @@ struct ReportTail {
   std::vector<trial::SavedPicture> pictures;
   std::vector<report::Fact> notes, registration = {};
 };
+/// Of a trial what is asked to say what to practise next.
+struct JudgedTrial {
+  training::Role role = training::Role::none;
+  training::Outcome outcome = training::Outcome::none;
+  std::vector<metrics::MetricValue> figures;
+};
+/// A page's beginning and end, with what was noted in the evidence. Throws Error.
+report::SessionPage pageOf(const ReportHead& head, const ReportTail& tail,
+                           const std::filesystem::path& evidence, training::Engine engine,
+                           const std::vector<JudgedTrial>& trials);
+/// `of` makes each a JudgedTrial.
+template <class Trials, class Of>
+std::vector<JudgedTrial> judgedOf(const Trials& trials, const Of& of) {
+  std::vector<JudgedTrial> all;
+  for (const auto& trial : trials) all.push_back(of(trial));
+  return all;
+}
+std::vector<report::Picture> picturesOf(const ReportTail& tail);
 
 /// Of the parts of a task what they mean.
 report::SubtaskMeanings meaningsOf(const station::NamedPlan& plan);
@@ -96,9 +117,5 @@ report::SubtaskSection partsOf(const report::SubtaskMeanings& meanings, const Tr
   }
   return section;
 }
-
-/// What an event means for the learner: "good", "guide", "bad", "neutral"; "note" of somebody's
-/// note. What was touched or pierced is told by its words, the rest by its kind.
-std::string toneOfEvent(const runtime::Event& event);
 
 }  // namespace palpa::session

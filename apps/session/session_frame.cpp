@@ -6,6 +6,7 @@
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/uuid.h"
+#include "apps/evidence/told_events.h"
 #include "apps/live/wire.h"
 #include "apps/os/child_process.h"
 #include "apps/os/system_time.h"
@@ -157,6 +158,16 @@ std::vector<runtime::BoardPlace> SessionFrame::places() const {
   return all;
 }
 
+namespace {
+
+trial::HeldBy heldBy(SessionDevices& devices) {
+  return devices.mouse()      ? trial::HeldBy::mouse_needle
+         : devices.pointing() ? trial::HeldBy::mouse_finger
+                              : trial::HeldBy::device;
+}
+
+}  // namespace
+
 trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
   using Views = trial::TrialScene::Views;
   trial::TrialScene::Stage stage;
@@ -180,8 +191,9 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
     stage.watch = [this](const scene::SceneState& state, const trial::TrialStatus& status,
                          std::int64_t now_ns) { publish(state, status, now_ns); };
   if (!window_) return stage;
+  stage.keys = trial::keysOf(world_.engine, heldBy(devices_), options_.left_handed);
   stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
-    handleKeys(input, channels_, bus_.stop);
+    trial::handleKeys(input, channels_, bus_.stop);
     if (PointingHand* hand = devices_.pointing())
       hand->handle(input, stage_.view->arGeometry(), now_ns);
     notePlace(now_ns);  // asks the window system, which may take its time: last
@@ -242,7 +254,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   if (!options_.live.empty()) {
     live_ = std::make_unique<live::LiveSession>(
         options_.live, helloOf(options_, world_.station, info.uuid), channels_, bus_.stop);
-    told.emplace(writer, live_->log(), world_.near, toneOfEvent);
+    told.emplace(writer, live_->log(), world_.near, evidence::toneOfEvent);
   }
   runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer,
                                      world_.tick.period_ns);
@@ -253,6 +265,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   if (stop_key_) stop_key.emplace(*stop_key_, bus_.stop);
   devices_.addTo(*executive_);
   if (const std::string warning = devices_.warning(); !warning.empty()) task.warn(warning);
+  if (window_ && !options_.fast) task.stay();
   executive_->add(*haptic, {1, true, false, options_.cpu});
   if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});
   executive_->add(camera, {3, false, false});

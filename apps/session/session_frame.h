@@ -64,6 +64,7 @@ struct SessionCost {
 class SessionFrame {
  public:
   struct World {
+    training::Engine engine;
     const station::Station& station;
     const anatomy::Patient& patient;  ///< what is shown
     Pose X_WA;

@@ -63,7 +63,7 @@ struct LearnerOptions {
 
 /// What every session command understands.
 struct SessionOptions {
-  std::string command = "paracentesis";
+  std::string command = "subclavian";
   std::string task;                ///< task file; empty: the shipped one
   std::string station;             ///< station file; empty: the virtual bench
   std::string patient;             ///< patient file; empty: built from the reference figures

@@ -287,6 +287,18 @@ void PalpationTask::receive(const trial::UserRequest& request, std::int64_t now_
          static_cast<double>(listener_.marks().size()));
 }
 
+/// After a mark it asks for what is still to be said of it: each answer shows as the next question.
+std::string PalpationTask::doing() const {
+  if (!listener_.marks().empty()) {
+    const assess::LumpMark& mark = listener_.marks().back();
+    const std::string which = "Mark " + std::to_string(listener_.marks().size());
+    if (mark.hardness == 0) return which + ": how does it feel? 1 soft, 2 hard";
+    if (mark.mobility == 0) return which + ": does it move? 3 fixed, 4 mobile";
+    if (!(mark.diameter > 0)) return which + ": how large? 5: 10 mm, 6: 15, 7: 20, 8: 25";
+  }
+  return "Here is a lump: M, or the device's button. D when you are done";
+}
+
 void PalpationTask::command(haptics::TickCommands& commands) const {
   commands.lumps = placed_;
   commands.augmented = plan().augmented;

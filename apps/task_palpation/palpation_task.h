@@ -128,6 +128,7 @@ class PalpationTask final : public trial::TrialTask {
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;
+  std::string doing() const override;
   void receive(const trial::UserRequest& request, std::int64_t now_ns) override;
   void showLumps(const assess::PalpationAssessment* judged);
   const TopShape& top() const { return setup_.settings.scoring.rules.area.top; }

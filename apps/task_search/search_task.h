@@ -90,6 +90,7 @@ class SearchTask final : public trial::TrialTask {
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;
+  std::string doing() const override { return "Stay in the middle of the rough one to choose it"; }
   void letGo(const haptics::FlightRecord& record, std::int64_t now_ns);
   const Episode& episode() const {
     return setup_.episodes[static_cast<std::size_t>(status().trial - 1)];

@@ -1,16 +1,20 @@
 #include "apps/training/engine.h"
-#include "anatomy/base/file_schema.h"
 
+#include <algorithm>
 #include <array>
+
+#include "anatomy/base/file_schema.h"
 
 namespace palpa::training {
 namespace {
+
+constexpr char kSubclavianId[] = "paracentesis";
 
 struct EngineNames {
   std::string name, command, before;
 };
 
-const std::array<EngineNames, 6> kNames{{{"needle", "paracentesis", ""},
+const std::array<EngineNames, 6> kNames{{{"needle", "subclavian", ""},
                                          {"palpation", "palpation", ""},
                                          {"squeeze", "squeeze", ""},
                                          {"search", "search", "surface"},
@@ -24,6 +28,17 @@ const EngineNames& namesOf(Engine engine) { return kNames[static_cast<std::size_
 const std::string& nameOf(Engine engine) { return namesOf(engine).name; }
 
 const std::string& commandOf(Engine engine) { return namesOf(engine).command; }
+
+std::string taskWords(const std::string& id) {
+  if (id == kSubclavianId) return "subclavian access";
+  std::string words = id;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string taskIdOf(const std::string& named) {
+  return named == commandOf(Engine::needle) ? kSubclavianId : named;
+}
 
 std::optional<Engine> engineNamed(std::string_view name) {
   for (std::size_t i = 0; i < kNames.size(); ++i)

@@ -93,7 +93,8 @@ void TrialTask::becomeReady(std::int64_t now_ns) {
   status_.state = TrialState::waiting;
   since_ns_ = now_ns;
   if (!lead_.automatic)
-    status_.notice = warning.empty() ? "Press Enter to start" : warning + ". Enter starts";
+    status_.notice =
+        warning.empty() ? "Press Enter to start. ? shows keys" : warning + ". Enter starts";
 }
 
 /// All for the evidence, the first for the notice; none forbids a trial.

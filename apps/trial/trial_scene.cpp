@@ -132,6 +132,7 @@ void tellTrial(const TrialStatus& status, const std::string& task, const std::st
 void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std::string& own,
               const std::string& camera, scene::Hud* hud) {
   hud->notice = status.notice;
+  hud->can_do = status.can_do;
   hud->alarm = status.alarm;
   const auto say = [hud](const std::string& words, bool alarm) {
     if (!hud->notice.empty() || words.empty()) return;
@@ -180,10 +181,11 @@ TrialScene::TrialScene(const Stage& stage, runtime::Bus& bus, Channels& channels
   state_.skin = firstSkin(stage.shown);
 }
 
-/// T: the skin's look. V: the next fixed view.
+/// T: the skin's look. V: the next fixed view. ?: the keys.
 void TrialScene::handle(const scene::ViewInput& input) {
   for (const std::string& key : input.keys) {
     if (key == "t" || key == "T") state_.skin = nextSkin(stage_.shown, state_.skin);
+    if (key == "question") help_ = !help_;
     if (key == "v" || key == "V") state_.fixed_view = (state_.fixed_view + 1) % scene::kFixedViews;
   }
 }
@@ -252,6 +254,7 @@ void TrialScene::composeAll() {
   compose(state_, tool_, camera.empty() && stage_.head ? stage_.head->trouble() : camera);
   showEllipse(camera.empty());
   hideBehindRealThings();
+  state_.help = help_ ? stage_.keys : std::vector<scene::KeyHelp>();
   if (stage_.more) stage_.more(state_);
   keepShown(stage_.shown, &state_);
 }

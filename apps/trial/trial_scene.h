@@ -71,6 +71,7 @@ class TrialScene : public runtime::Activity {
     std::function<void(scene::SceneState&)> more;
     /// Told after every frame what is on the screen, and where the trials stand.
     std::function<void(const scene::SceneState&, const TrialStatus&, std::int64_t now_ns)> watch;
+    std::vector<scene::KeyHelp> keys;  ///< shown while somebody asks for them
     /// Keys and mouse of a window, once a frame.
     std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
   };
@@ -127,7 +128,7 @@ class TrialScene : public runtime::Activity {
   std::optional<runtime::CameraView> camera_;
   std::optional<ar::BoardPose> board_;
   Pose X_CW_ = Pose::Identity();
-  bool registered_ = false, fresh_picture_ = false;
+  bool registered_ = false, fresh_picture_ = false, help_ = false;
   std::int64_t now_ns_ = 0, next_frame_ns_ = 0;
   std::uint64_t last_number_ = ~0ull;
   scene::Image background_;

@@ -14,7 +14,8 @@ namespace {
 using runtime::kMillisecond;
 using runtime::kSecond;
 constexpr std::int64_t kTaskPeriod = 16'666'667;
-constexpr std::int64_t kBetweenTrials = 3 * kSecond;  // the trainee takes the tool back
+constexpr std::int64_t kBetweenTrials = 3 * kSecond,  // the trainee takes the tool back
+    kReading = 60 * kSecond;
 constexpr std::int64_t kTripShown = 2 * kSecond;
 
 }  // namespace
@@ -44,11 +45,7 @@ std::int64_t TrialTask::step(std::int64_t now_ns) {
       if (lead_.automatic) startTrial(now_ns);
       break;
     case TrialState::ended:
-      if (now_ns - since_ns_ >= kBetweenTrials) {
-        status_.state =
-            status_.trial >= status_.trials ? TrialState::finished : TrialState::checking;
-        since_ns_ = now_ns;
-      }
+      comeToAnEnd(now_ns);
       break;
     case TrialState::finished:
       if (now_ns - since_ns_ >= 200 * kMillisecond) executive_.stop();
@@ -59,6 +56,14 @@ std::int64_t TrialTask::step(std::int64_t now_ns) {
   }
   publish(now_ns);
   return now_ns + kTaskPeriod;
+}
+
+/// After the last trial a person who reads how it ended says when that is done.
+void TrialTask::comeToAnEnd(std::int64_t now_ns) {
+  const bool last = status_.trial >= status_.trials;
+  if (now_ns - since_ns_ < (last && stays_ ? kReading : kBetweenTrials)) return;
+  status_.state = last ? TrialState::finished : TrialState::checking;
+  since_ns_ = now_ns;
 }
 
 /// What a trial suffered from the computer, how often as the events' values. In virtual time
@@ -101,6 +106,7 @@ void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_
                                                outcome == Outcome::voided ? "" : end.scores_json});
   status_.state = TrialState::ended;
   status_.notice = endNotice(status_.role, outcome, end.result);
+  if (stays_ && status_.trial >= status_.trials) status_.notice += ". Enter closes";
   since_ns_ = now_ns;
 }
 
@@ -238,6 +244,8 @@ void TrialTask::leave(const std::string& reason, std::int64_t now_ns) {
 }
 
 void TrialTask::goOn(std::int64_t now_ns) {
+  if (status_.state == TrialState::ended && stays_ && status_.trial >= status_.trials)
+    since_ns_ = now_ns - kReading;
   if (status_.emergency_stop) return;  // only re-arming goes on from here
   if (status_.state == TrialState::waiting) return startTrial(now_ns);
   if (status_.state != TrialState::paused) return;
@@ -294,7 +302,17 @@ void TrialTask::picture(const std::string& label, const std::string& caption) {
   channels_.pictures_to_scene.push(request);
 }
 
+/// Where a notice stands it says so itself, and this is not shown.
+std::string TrialTask::canDo() const {
+  if (lead_.automatic) return "";
+  if (status_.state == TrialState::paused) return "Enter continues, A ends the trial, ? shows keys";
+  if (status_.state != TrialState::running) return "? shows keys";
+  const std::string own = doing();
+  return own.empty() ? "P pauses, ? shows keys" : own + ". ? shows keys";
+}
+
 void TrialTask::publish(std::int64_t now_ns) {
+  status_.can_do = canDo();
   haptics::TickCommands commands;
   commands.trial = static_cast<std::uint32_t>(status_.trial);
   commands.armed = status_.state == TrialState::running;

@@ -32,6 +32,9 @@ class TrialTask : public runtime::Activity {
   /// whoever holds it has to know. Before the first step.
   void warn(const std::string& of_device) { warnings_.push_back(of_device); }
 
+  /// A window shows how the last trial ended until a person presses Enter, a minute at most.
+  void stay() { stays_ = !lead_.automatic; }
+
   const char* name() const override { return "task"; }
   std::int64_t step(std::int64_t now_ns) override;
 
@@ -59,6 +62,8 @@ class TrialTask : public runtime::Activity {
   /// Of the trial that is on: what the loop must be told beside armed, stop and number.
   virtual void command(haptics::TickCommands& commands) const = 0;
   virtual void publishStatus(std::int64_t now_ns) = 0;
+  /// What a person can do in the trial that runs, beside pausing it; empty: it needs no words.
+  virtual std::string doing() const { return ""; }
   /// A request that only the task understands.
   virtual void receive(const UserRequest&, std::int64_t) {}
 
@@ -95,8 +100,11 @@ class TrialTask : public runtime::Activity {
   void reportLoad(std::int64_t now_ns);
   void startTrial(std::int64_t now_ns);
   void publish(std::int64_t now_ns);
+  std::string canDo() const;
+  void comeToAnEnd(std::int64_t now_ns);
 
   Lead lead_;
+  bool stays_ = false;
   haptics::FlightRecord first_;  // of two tools, until the second one's is there
   runtime::Bus& bus_;
   Channels& channels_;

@@ -29,7 +29,7 @@ export const capital = (text) => (text ? text[0].toUpperCase() + text.slice(1) :
 export const who = (trainee) => trainee || "nobody (T000)";
 
 const kTasks = {
-  paracentesis: "Paracentesis",
+  paracentesis: "Subclavian access",
   palpation: "Palpation",
   squeeze: "Squeeze",
   search: "Search",

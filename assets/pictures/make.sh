@@ -49,7 +49,7 @@ moment() {
 }
 
 cd "$work"
-"$palpa" paracentesis --operator expert --seed 1 --fast --out out/readme
+"$palpa" subclavian --operator expert --seed 1 --fast --out out/readme
 moment out/readme phase-2 session.jpg
 
 root=()

@@ -304,11 +304,12 @@ void HudPainter::buildTimeline() {
 }
 
 void HudPainter::buildNotice() {
-  const std::string& text = content_->text.notice;
+  const bool calm = content_->text.notice.empty();
+  const std::string& text = calm ? content_->text.can_do : content_->text.notice;
   if (text.empty()) return;
-  const bool alarm = content_->text.alarm;
+  const bool alarm = content_->text.alarm && !calm;
   const Rect& panel = content_->panel;
-  const TextStyle wish = style(1.45, alarm, colour::kText);
+  const TextStyle wish = style(calm ? 1 : 1.45, alarm, colour::kText);
   const int pad = text_, room = panel.width - 2 * (margin_ + pad);
   const auto [first, second] =
       textWidth(text, wish) > room ? halves(text) : std::pair(text, std::string());
@@ -322,14 +323,15 @@ void HudPainter::buildNotice() {
   const Rect frame{left, notice_up_ ? up : down, width, height};
   notice_elsewhere_ = {left, notice_up_ ? down : up, width, height};
   if (!put(Plate::notice, frame)) return;
+  const int x = frame.x + width / 2, top = frame.top() - pad / 2 - line / 2;
+  write(first, look, x, top, Align::centre);
+  if (lines == 2) write(second, look, x, top - line, Align::centre);
+  if (calm) return plates_.add(frame, colour::kPlate, text_ / 2);
   const Rgba edge = alarm ? opaque(colour::kText) : opaque(colour::kAdvice);
   const int rim = std::max(1, text_ / 8);
   plates_.add({frame.x - rim, frame.y - rim, width + 2 * rim, frame.height + 2 * rim}, edge,
               text_ / 2 + rim);
   plates_.add(frame, alarm ? colour::kAlarmPlate : Rgba{0.05, 0.07, 0.10, 1}, text_ / 2);
-  const int x = frame.x + width / 2, top = frame.top() - pad / 2 - line / 2;
-  write(first, look, x, top, Align::centre);
-  if (lines == 2) write(second, look, x, top - line, Align::centre);
 }
 
 }  // namespace palpa::scene

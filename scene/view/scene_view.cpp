@@ -17,6 +17,7 @@
 #include "anatomy/base/whole_file.h"
 #include "scene/actors/camera_picture.h"
 #include "scene/actors/surface_map.h"
+#include "scene/overlay/help_plate.h"
 #include "scene/overlay/hud.h"
 #include "scene/overlay/label.h"
 #include "scene/renderer_setup.h"
@@ -29,7 +30,22 @@
 namespace palpa::scene {
 namespace {
 constexpr const char* kFullScreenKey = "F11";
+
+/// Between the mark on top and the notice below.
+Rect helpPanel(const Rect& view, int text_px) {
+  return {view.x + text_px, view.y + 4 * text_px, std::max(1, view.width - 2 * text_px),
+          std::max(1, view.height - 7 * text_px)};
 }
+
+Hud saidLast(const Hud& all) {
+  Hud some;
+  some.notice = all.notice;
+  some.alarm = all.alarm;
+  some.mark = all.mark;
+  return some;
+}
+
+}  // namespace
 
 struct SceneView::Impl {
   Impl(GlContextProvider& provider, const anatomy::Patient& patient, const ViewLayout& wanted);
@@ -57,6 +73,7 @@ struct SceneView::Impl {
   std::vector<std::unique_ptr<OrthoView>> fixed;
   std::unique_ptr<CameraInset> inset;  // null: none
   HudPainter hud;
+  HelpPlate help;
   std::unique_ptr<HudPainter> other_hud;  // before the right eye of a headset
   Navigation navigation;
   std::unique_ptr<WindowInput> input;
@@ -74,7 +91,8 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
       region(regionOf(patient)),
       margins(*frame),
       ar((window.AddRenderer(frame), window), patient, region, layout),
-      hud(*words, layout.force_colours) {
+      hud(*words, layout.force_colours),
+      help(*words) {
   if (!context.interactive()) window.SetSize(layout.width, layout.height);
   window.SetNumberOfLayers(3);
   if (layout.see_through) window.SetAlphaBitPlanes(1);
@@ -160,6 +178,9 @@ void SceneView::Impl::writeWords(const SceneState& state) {
   const std::vector<ForceArrow> forces =
       ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
   Hud text = state.hud;
+  // Over the keys stands nothing else but what was said last.
+  if (!state.help.empty()) text = saidLast(text);
+  help.update(state.help, helpPanel(panels.ar, text_px()), text_px());
   if (ar.showsPatient() && state.surface_map) text.scale = scaleOf(*state.surface_map);
   Surroundings around = ar.toolOnScreen(state, 0);
   if (isMerged(layout.stereo)) around.add(ar.toolOnScreen(state, 1));

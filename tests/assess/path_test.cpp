@@ -52,15 +52,14 @@ TEST(Phase2, IsAThousandAtTheEdgeOfTheAcceptableMargin) {
 TEST(Phase2, NamesTheDeviationAndTheMargin) {
   const TrialAssessment steep =
       assess(directed(direction_L(33 * kDeg, 15 * kDeg)).samples(), "aborted");
-  EXPECT_EQ(
-      penalty(steep, "PHASE_2").sentence,
-      "At the start of phase 2 the needle was 8° too steep: beyond the acceptable margin (6°).");
+  EXPECT_EQ(penalty(steep, "PHASE_2").sentence,
+            "At the start of phase 2 the needle was 8° too steep: farther than experts vary (6°).");
   EXPECT_DOUBLE_EQ(penalty(steep, "PHASE_2").weight, 0.2);
   const TrialAssessment caudal =
       assess(directed(direction_L(25 * kDeg, 11 * kDeg)).samples(), "aborted");
   EXPECT_EQ(
       penalty(caudal, "PHASE_2").sentence,  // 4 degrees of azimuth are 3.6 at this elevation
-      "At the start of phase 2 the needle was 4° too caudal: within the acceptable margin (6°).");
+      "At the start of phase 2 the needle was 4° too caudal: no farther than experts vary (6°).");
   EXPECT_EQ(penalty(caudal, "PHASE_2").points, 0);
 }
 

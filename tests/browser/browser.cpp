@@ -9,6 +9,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tests/support/base64.h"
+
 namespace palpa::test {
 namespace {
 
@@ -16,24 +18,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr char kDriver[] = "/usr/bin/chromedriver", kChromium[] = "/usr/bin/chromium";
-
-std::string decoded(const std::string& base64) {
-  std::string bytes;
-  unsigned held = 0;
-  int bits = 0;
-  for (const char c : base64) {
-    const std::string_view alphabet =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t value = alphabet.find(c);
-    if (value == std::string_view::npos) continue;
-    held = held << 6 | static_cast<unsigned>(value);
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes += static_cast<char>(held >> bits & 0xff);
-  }
-  return bytes;
-}
 
 /// The driver chooses a free port and says it: "... on port 40123."
 int portSaidIn(const fs::path& log) {
@@ -145,7 +129,14 @@ void Browser::screenshot(const fs::path& png) {
       "Page.captureScreenshot",
       {{"captureBeyondViewport", true},
        {"clip", {{"x", 0}, {"y", 0}, {"width", size[0]}, {"height", size[1]}, {"scale", 1}}}});
-  std::ofstream(png, std::ios::binary) << decoded(picture.at("data").get<std::string>());
+  std::ofstream(png, std::ios::binary) << fromBase64(picture.at("data").get<std::string>());
+}
+
+void Browser::print(const fs::path& pdf) {
+  const json printed = post("/print", {{"background", true},
+                                       {"page", {{"width", 21.0}, {"height", 29.7}}},
+                                       {"shrinkToFit", false}});
+  std::ofstream(pdf, std::ios::binary) << fromBase64(printed.get<std::string>());
 }
 
 std::string Browser::complaints() {

@@ -30,6 +30,7 @@ class Browser {
   void open(const std::filesystem::path& page);
   nlohmann::json run(const std::string& script);      ///< the body of a function; what it returns
   void screenshot(const std::filesystem::path& png);  ///< of the whole page
+  void print(const std::filesystem::path& pdf);       ///< on A4
   std::string complaints();  ///< what the page wrote to the console as errors, a line each
 
  private:

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "tests/browser/page_faults.h"
@@ -57,6 +58,45 @@ TEST_F(Pages, OfPalpationAndSearch) {
   writePalpationReport(test::syntheticPalpation(3), folder / "palpation.html");
   writeSearchReport(test::searchedSession(), folder / "search.html");
   for (const char* page : {"palpation.html", "search.html"}) expectNoFaults(folder / page);
+}
+
+/// Of a sheet at 10 dots an inch: how far down there is something on it, a share of its height.
+double usedOf(const std::filesystem::path& pgm) {
+  std::ifstream file(pgm, std::ios::binary);
+  std::string magic;
+  int width = 0, height = 0, white = 0;
+  file >> magic >> width >> height >> white;
+  file.get();
+  const std::string gray((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  int last = 0;
+  for (int i = 0; i < width * height; ++i)
+    if (static_cast<unsigned char>(gray.at(static_cast<std::size_t>(i))) < 240) last = i / width;
+  return static_cast<double>(last) / height;
+}
+
+/// No sheet is empty, or holds what is left of the one before.
+TEST_F(Pages, OnPaperNoSheetIsNearlyEmpty) {
+  const auto folder = test::freshFolder("browser_paper");
+  writeReport(test::syntheticReport(1), folder / "needle.html");
+  writeReport(test::judgedReport(), folder / "judged.html");
+  writePalpationReport(test::syntheticPalpation(2), folder / "palpation.html");
+  writeSearchReport(test::searchedSession(), folder / "search.html");
+  for (const std::string page : {"needle", "judged", "palpation", "search"}) {
+    browser_->show(1100);
+    browser_->open(folder / (page + ".html"));
+    browser_->print(folder / (page + ".pdf"));
+    const std::string sheets = (folder / page).string();
+    ASSERT_EQ(std::system(("pdftoppm -r 10 -gray '" + sheets + ".pdf' '" + sheets + "'").c_str()),
+              0);
+    int count = 0;
+    for (const auto& one : std::filesystem::directory_iterator(folder)) {
+      const std::string name = one.path().filename().string();
+      if (one.path().extension() != ".pgm" || name.rfind(page + '-', 0) != 0) continue;
+      EXPECT_GT(usedOf(one.path()), 0.2) << name;
+      ++count;
+    }
+    EXPECT_GT(count, 0) << page;
+  }
 }
 
 /// The judge itself: it finds each of these.

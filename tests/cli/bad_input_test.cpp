@@ -83,7 +83,7 @@ TEST_F(BadInput, OperatorOfAnotherTask) {
   };
   for (const char* command : {"palpation", "search", "squeeze", "friction", "pulse"})
     expectRefused(with(command, "expert.json"), "expert.json");
-  expectRefused(with("paracentesis", "palpation_expert.json"), "palpation_expert.json");
+  expectRefused(with("subclavian", "palpation_expert.json"), "palpation_expert.json");
 }
 
 TEST_F(BadInput, PatientMissingOrDamaged) {

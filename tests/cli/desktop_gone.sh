@@ -33,7 +33,7 @@ begin() {   # a session of a simulated expert, in a window of a display of its o
   server=$!
   until_true 20 test -s "$place/display"
   export DISPLAY=:$(cat "$place/display")
-  "$palpa" paracentesis --display window --operator expert --trials 9 --quiet --out "$out" \
+  "$palpa" subclavian --display window --operator expert --trials 9 --quiet --out "$out" \
     --live "$out.live" >"$out.said" 2>&1 &
   program=$!
   until_true 120 test -s "$out/session.palpa"

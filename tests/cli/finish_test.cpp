@@ -21,7 +21,7 @@ struct Kind {
   const char* command;
   const char* section_end;  ///< of what a report says of one trial
 };
-constexpr Kind kNeedle{"paracentesis", "</section>"};
+constexpr Kind kNeedle{"subclavian", "</section>"};
 constexpr Kind kAll[] = {kNeedle,
                          {"palpation", "</section>"},
                          {"search", "</tr>"},

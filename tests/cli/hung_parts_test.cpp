@@ -190,7 +190,7 @@ TEST(HungRecords, AServerThatNeverAnswersHoldsUpNeitherBeginningNorEnd) {
   const std::string url =
       "postgresql://palpa@127.0.0.1:" + std::to_string(silent.port()) + "/palpa";
   const runtime::SteadyClock clock;
-  Running program({"paracentesis", "--operator", "expert", "--no-views", "--quiet", "--seed",
+  Running program({"subclavian", "--operator", "expert", "--no-views", "--quiet", "--seed",
                    kShortTrial, "--trials", "9", "--station", quickStation("virtual_bench.json"),
                    "--trainee", "T1", "--records", url, "--out", "A"},
                   here.path(), here / "err");

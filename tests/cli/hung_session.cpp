@@ -66,8 +66,8 @@ const Folder& quickRecording() {
     here.file("bench.json", station.dump());
     here.file("lens.yml", benchLens());
     return palpa(
-               {"paracentesis", "--operator", "expert", "--seed", kShortTrial, "--fast",
-                "--no-views", "--quiet", "--station", "bench.json", "--record-video", "--out", "A"},
+               {"subclavian", "--operator", "expert", "--seed", kShortTrial, "--fast", "--no-views",
+                "--quiet", "--station", "bench.json", "--record-video", "--out", "A"},
                here.path())
                .exit_code == 0;
   }();
@@ -139,9 +139,8 @@ std::string HungSession::station(const std::string& shipped) const {
 }
 
 std::vector<std::string> HungSession::arguments() {
-  std::vector<std::string> all{
-      "paracentesis", "--quiet", "--record-video", "--live",    "s",
-      "--out",        "A",       "--seed",         kShortTrial, "--station"};
+  std::vector<std::string> all{"subclavian", "--quiet", "--record-video", "--live",    "s",
+                               "--out",      "A",       "--seed",         kShortTrial, "--station"};
   const auto add = [&all](const std::vector<std::string>& more) {
     all.insert(all.end(), more.begin(), more.end());
   };

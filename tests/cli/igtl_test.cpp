@@ -154,7 +154,7 @@ class Followed {
  public:
   Followed() {
     here_.file("station.json", stationWithTracker(plus.port()));
-    run_.emplace(std::vector<std::string>{"paracentesis", "--station", "station.json", "--operator",
+    run_.emplace(std::vector<std::string>{"subclavian", "--station", "station.json", "--operator",
                                           "expert", "--no-views", "--quiet", "--out", "A", "--igtl",
                                           std::to_string(port_)},
                  here_.path());

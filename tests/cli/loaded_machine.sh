@@ -25,7 +25,7 @@ how=()
 ended=0 silent=0
 for seed in $(seq "$count"); do
   out=$work/$seed
-  timeout 600 "$palpa" paracentesis --operator expert "${how[@]}" --quiet --seed "$seed" \
+  timeout 600 "$palpa" subclavian --operator expert "${how[@]}" --quiet --seed "$seed" \
     --out "$out" >/dev/null 2>"$work/said.txt"
   code=$?
   if [ $code = 0 ] && [ -s "$out/report.html" ] && [ "$(wc -l <"$out/trials.csv")" -ge 2 ]; then

@@ -43,7 +43,7 @@ case $kind in
       sleep 0.1
     done
     # It lives in real time, the tests beside it do not.
-    DISPLAY=:$(cat "$work/display") nice -n -5 "$palpa" paracentesis --display window \
+    DISPLAY=:$(cat "$work/display") nice -n -5 "$palpa" subclavian --display window \
       --operator expert --trials 1000 --quiet --out "$work/session" >"$work/said.txt" 2>&1 &
     program=$!
     watch $((60 * minutes))
@@ -62,7 +62,7 @@ case $kind in
     ;;
   trials)
     trials=${asked:-1000}
-    "$palpa" paracentesis --fast --no-views --operator expert --trials "$trials" --quiet \
+    "$palpa" subclavian --fast --no-views --operator expert --trials "$trials" --quiet \
       --out "$work/session" >"$work/said.txt" 2>&1 &
     program=$!
     watch 36000

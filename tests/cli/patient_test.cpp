@@ -97,7 +97,7 @@ TEST(Patient, PhantomIsBuiltWithItsInclusionAndIsNotToBePunctured) {
     EXPECT_TRUE(says(told.out, "inclusion")) << told.out;
     EXPECT_TRUE(says(told.out, "not to be punctured")) << told.out;
     const Outcome session =
-        palpa({"paracentesis", "--patient", "b.glb", "--fast", "--quiet"}, here.path());
+        palpa({"subclavian", "--patient", "b.glb", "--fast", "--quiet"}, here.path());
     EXPECT_NE(session.exit_code, 0);
     EXPECT_EQ(session.errLines(), 1) << session.err;
   }

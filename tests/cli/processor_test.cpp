@@ -59,7 +59,7 @@ TEST_P(OnAnyProcessor, AReplayHasTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(
     Tasks, OnAnyProcessor,
-    ::testing::Values(KindOfTask{"paracentesis", {"paracentesis"}},
+    ::testing::Values(KindOfTask{"subclavian", {"subclavian"}},
                       KindOfTask{"bone_pin",
                                  {"train", "--task",
                                   std::string(PALPA_SOURCE_DIR) + "/assets/tasks/bone_pin.json"}},

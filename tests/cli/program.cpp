@@ -211,9 +211,9 @@ std::vector<std::string> quickly(std::vector<std::string> words) {
   };
   std::vector<std::string> more{"--fast", "--no-views", "--quiet"};
   if (command != "train" && !has("--station")) {
-    const std::string station = command == "paracentesis" ? "virtual_bench.json"
-                                : command == "search"     ? "search_bench.json"
-                                                          : "palpation_bench.json";
+    const std::string station = command == "subclavian" ? "virtual_bench.json"
+                                : command == "search"   ? "search_bench.json"
+                                                        : "palpation_bench.json";
     more.insert(more.end(), {"--station", quickStation(station)});
     if (!has("--camera") && !has("--record-video"))
       more.insert(more.end(), {"--tracking", "model"});
@@ -232,7 +232,7 @@ std::string taskWith(const std::string& shipped, const nlohmann::json& changes,
 }
 
 std::vector<std::string> session(const std::vector<std::string>& more) {
-  std::vector<std::string> all{"paracentesis", "--operator", "expert"};
+  std::vector<std::string> all{"subclavian", "--operator", "expert"};
   all.insert(all.end(), more.begin(), more.end());
   return quickly(all);
 }

@@ -27,7 +27,7 @@ std::string filledIn(const Folder& here, const std::string& item, const std::str
 TEST(Rate, FromTheFormToTheVerdict) {
   const Folder here;
   ASSERT_EQ(inHere({"records", "trainee", "add", "--id", "T001"}, here).exit_code, 0);
-  const Outcome run = palpa({"paracentesis", "--assess", "--operator", "expert", "--fast",
+  const Outcome run = palpa({"subclavian", "--assess", "--operator", "expert", "--fast",
                              "--no-views", "--station", quickStation("virtual_bench.json"),
                              "--seed", kShortTrial, "--trainee", "T001", "--out", "A"},
                             here.path());
@@ -103,15 +103,15 @@ TEST(Rate, MistakesAreSaid) {
           "none.json: cannot be read");
   refused({"rate", "enter", "--session", "A", "--rater", "Dr Smith", "--answers", "bad.csv"},
           "pseudonym");
-  refused({"paracentesis", "--assess", "--guide", "on", "--fast", "--operator", "expert"},
+  refused({"subclavian", "--assess", "--guide", "on", "--fast", "--operator", "expert"},
           "--guide on with --assess");
-  refused({"paracentesis", "--assess", "--presentation", "substitution", "--fast", "--operator",
+  refused({"subclavian", "--assess", "--presentation", "substitution", "--fast", "--operator",
            "expert"},
           "--presentation with --assess");
-  refused({"paracentesis", "--presentation", "pilot", "--guide", "on", "--fast", "--operator",
-           "expert"},
-          "--guide on");
-  refused({"paracentesis", "--presentation", "pilto", "--fast", "--operator", "expert"}, "pilot");
+  refused(
+      {"subclavian", "--presentation", "pilot", "--guide", "on", "--fast", "--operator", "expert"},
+      "--guide on");
+  refused({"subclavian", "--presentation", "pilto", "--fast", "--operator", "expert"}, "pilot");
   refused({"search", "--assess", "--mode", "augmented", "--fast", "--operator", "expert"},
           "--mode augmented with --assess");
 }

@@ -23,7 +23,7 @@ TEST(Records, ASessionComesInOnceWithEveryFigure) {
       {"trainee", "add", "--id", "T007", "--group", "novice", "--experience", "3rd year"}, here);
   EXPECT_EQ(added.exit_code, 0) << added.err;
   EXPECT_TRUE(says(added.out, "Consent to keeping training records is not noted")) << added.out;
-  ASSERT_EQ(palpa(quickly({"paracentesis", "--operator", "expert", "--trials", "2", "--seed", "40",
+  ASSERT_EQ(palpa(quickly({"subclavian", "--operator", "expert", "--trials", "2", "--seed", "40",
                            "--trainee", "T007", "--out", "A"}),
                   here.path())
                 .exit_code,

@@ -50,9 +50,9 @@ void expectPage(const std::string& page) {
 /// Shipped station and patient, every option as it is by itself.
 TEST(Session, LeavesItsFilesWhichCallItSimulatedAndSaysSo) {
   const Folder here;
-  const Outcome outcome = palpa(
-      {"paracentesis", "--operator", "expert", "--fast", "--no-views", "--quiet", "--out", "A"},
-      here.path());
+  const Outcome outcome =
+      palpa({"subclavian", "--operator", "expert", "--fast", "--no-views", "--quiet", "--out", "A"},
+            here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "--quiet";
   EXPECT_EQ(here.files(),
@@ -106,7 +106,7 @@ TEST(Session, NothingIsWrittenOnlyToBeReadAgain) {
 
 TEST(Session, ViewsChangeNoScore) {
   const Folder here;
-  const Outcome outcome = palpa({"paracentesis", "--operator", "expert", "--fast", "--quiet",
+  const Outcome outcome = palpa({"subclavian", "--operator", "expert", "--fast", "--quiet",
                                  "--seed", kShortTrial, "--trainee", "T042", "--out", "A"},
                                 here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -26,7 +26,7 @@ nlohmann::json benchWithFewPictures() {
 
 /// A quick session of whoever the station is for.
 std::vector<std::string> ofTheStation(std::vector<std::string> more) {
-  more.insert(more.begin(), "paracentesis");
+  more.insert(more.begin(), "subclavian");
   return quickly(more);
 }
 
@@ -130,7 +130,7 @@ TEST(StationSession, RealThingsHideWhatIsDrawnBehindThem) {
     nlohmann::json station = withPhantomBoard();
     station["real_things"] = things;
     here.file(name + ".json", station.dump());
-    Running session({"paracentesis", "--fast", "--quiet", "--operator", "expert", "--seed",
+    Running session({"subclavian", "--fast", "--quiet", "--operator", "expert", "--seed",
                      kShortTrial, "--station", name + ".json", "--out", name},
                     here.path());
     const std::filesystem::path file = here / (name + "/view-01-01-start.png");
@@ -294,7 +294,7 @@ TEST(StationSession, AFasterLoopAndTheFullMeshComeToTheSameVerdict) {
     EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0) << how[0];
   }
   Folder here;
-  EXPECT_EQ(palpa({"paracentesis", "--geometry", "exact", "--operator", "expert", "--no-views"},
+  EXPECT_EQ(palpa({"subclavian", "--geometry", "exact", "--operator", "expert", "--no-views"},
                   here.path())
                 .exit_code,
             2)

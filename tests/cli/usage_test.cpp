@@ -30,7 +30,7 @@ TEST(Usage, WithoutArgumentsItSaysWhatCanBeDone) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
   for (const char* word :
-       {"palpa paracentesis", "palpa replay", "virtual bench", "report.html", "--help"})
+       {"palpa subclavian", "palpa replay", "virtual bench", "report.html", "--help"})
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   EXPECT_TRUE(here.files().empty());
 }
@@ -38,7 +38,7 @@ TEST(Usage, WithoutArgumentsItSaysWhatCanBeDone) {
 TEST(Usage, EveryCommandExplainsItselfWithAnExample) {
   const Folder here;
   for (const Arguments& command : {Arguments{},
-                                   {"paracentesis"},
+                                   {"subclavian"},
                                    {"train"},
                                    {"replay"},
                                    {"export"},
@@ -52,7 +52,7 @@ TEST(Usage, EveryCommandExplainsItselfWithAnExample) {
     EXPECT_EQ(outcome.exit_code, 0) << joined(arguments);
     EXPECT_EQ(outcome.err, "") << joined(arguments);
     EXPECT_NE(outcome.out.find("Example"), std::string::npos) << joined(arguments);
-    EXPECT_NE(outcome.out.find("palpa " + (command.empty() ? "paracentesis" : command.front())),
+    EXPECT_NE(outcome.out.find("palpa " + (command.empty() ? "subclavian" : command.front())),
               std::string::npos)
         << joined(arguments);
   }
@@ -107,12 +107,12 @@ TEST(Usage, ATraineeIsAPseudonymNotAPathOrMarkup) {
 }
 
 TEST(Usage, ContradictionsAreRefused) {
-  expectWrongUsage({"paracentesis", "--operator", "person", "--fast", "--quiet"}, "--fast");
-  expectWrongUsage({"paracentesis", "--operator", "person", "--no-views", "--quiet"},
+  expectWrongUsage({"subclavian", "--operator", "person", "--fast", "--quiet"}, "--fast");
+  expectWrongUsage({"subclavian", "--operator", "person", "--no-views", "--quiet"},
                    "--operator person");
-  expectWrongUsage({"paracentesis", "--operator", "person", "--quiet"}, "DISPLAY");
+  expectWrongUsage({"subclavian", "--operator", "person", "--quiet"}, "DISPLAY");
   expectWrongUsage(session({"--display", "window"}), "--display window");
-  expectWrongUsage({"paracentesis", "--operator", "expert", "--fast", "--tracking", "model"},
+  expectWrongUsage({"subclavian", "--operator", "expert", "--fast", "--tracking", "model"},
                    "--no-views");
   expectWrongUsage(session({"--camera", "*.png"}), "--intrinsics");
   expectWrongUsage(session({"--camera", "*.png", "--intrinsics", "a.yml"}), "--board");

@@ -74,8 +74,8 @@ INSTANTIATE_TEST_SUITE_P(
     Usage, EachMistake,
     testing::Values(
         Mistake{"Seed",
-                {"paracentesis", "--seed", "abc"},
-                "--seed needs a whole number of 0 or more, not 'abc'. See: palpa paracentesis "
+                {"subclavian", "--seed", "abc"},
+                "--seed needs a whole number of 0 or more, not 'abc'. See: palpa subclavian "
                 "--help"},
         Mistake{"Trials",
                 {"palpation", "--trials", "0"},
@@ -90,25 +90,25 @@ INSTANTIATE_TEST_SUITE_P(
                 "--level needs a number between 0.0001 and 0.5, not '2'. See: palpa study plan "
                 "--help"},
         Mistake{"Operator",
-                {"paracentesis", "--operator", "exprt"},
+                {"subclavian", "--operator", "exprt"},
                 "--operator needs auto, expert, novice, person or a file that is there, not "
-                "'exprt'; did you mean expert? See: palpa paracentesis --help"},
+                "'exprt'; did you mean expert? See: palpa subclavian --help"},
         Mistake{"Option",
-                {"paracentesis", "--opeartor", "expert"},
-                "palpa paracentesis has no option --opeartor; did you mean --operator? See: palpa "
+                {"subclavian", "--opeartor", "expert"},
+                "palpa subclavian has no option --opeartor; did you mean --operator? See: palpa "
                 "paracentesis --help"},
         Mistake{"OneDash",
-                {"paracentesis", "-seed", "3"},
-                "palpa paracentesis has no option -seed; did you mean --seed? See: palpa "
+                {"subclavian", "-seed", "3"},
+                "palpa subclavian has no option -seed; did you mean --seed? See: palpa "
                 "paracentesis --help"},
         Mistake{"NoDash",
-                {"paracentesis", "fast"},
-                "palpa paracentesis takes no word 'fast'; did you mean --fast? See: palpa "
+                {"subclavian", "fast"},
+                "palpa subclavian takes no word 'fast'; did you mean --fast? See: palpa "
                 "paracentesis --help"},
         Mistake{"TooEarly",
-                {"--seed", "3", "paracentesis"},
-                "--seed stands before the command it belongs to; write: palpa paracentesis --seed. "
-                "See: palpa paracentesis --help"},
+                {"--seed", "3", "subclavian"},
+                "--seed stands before the command it belongs to; write: palpa subclavian --seed. "
+                "See: palpa subclavian --help"},
         Mistake{"Report",
                 {"report"},
                 "palpa report needs to know what to do: cohort, trainee or trial. See: palpa "
@@ -131,25 +131,25 @@ INSTANTIATE_TEST_SUITE_P(
                 "palpa replay takes session FILE only once; 'b' is too many. See: palpa replay "
                 "--help"},
         Mistake{"Twice",
-                {"paracentesis", "--seed", "1", "--seed", "2"},
-                "--seed NUMBER is given more than once. See: palpa paracentesis --help"},
+                {"subclavian", "--seed", "1", "--seed", "2"},
+                "--seed NUMBER is given more than once. See: palpa subclavian --help"},
         Mistake{"NoValue",
-                {"paracentesis", "--seed"},
-                "--seed NUMBER needs a value. See: palpa paracentesis --help"},
+                {"subclavian", "--seed"},
+                "--seed NUMBER needs a value. See: palpa subclavian --help"},
         Mistake{"Swallowed",
-                {"paracentesis", "--out", "--seed", "1"},
-                "--out DIR lacks its value: --seed follows it. See: palpa paracentesis --help"},
+                {"subclavian", "--out", "--seed", "1"},
+                "--out DIR lacks its value: --seed follows it. See: palpa subclavian --help"},
         Mistake{"SwallowedUnseen",
-                {"paracentesis", "--out", "--fast"},
-                "--out DIR lacks its value: --fast follows it. See: palpa paracentesis --help"},
+                {"subclavian", "--out", "--fast"},
+                "--out DIR lacks its value: --fast follows it. See: palpa subclavian --help"},
         Mistake{"Three",
                 {"calibrate", "force-sensor", "--down", "0", "1"},
                 "--down X Y Z needs 3 values. See: palpa calibrate force-sensor --help"},
         Mistake{"FlagWithValue",
-                {"paracentesis", "--fast=abc"},
-                "--fast stands alone, without a value. See: palpa paracentesis --help"},
+                {"subclavian", "--fast=abc"},
+                "--fast stands alone, without a value. See: palpa subclavian --help"},
         Mistake{"Needs",
-                {"paracentesis", "--igtl-listen", "0.0.0.0"},
+                {"subclavian", "--igtl-listen", "0.0.0.0"},
                 "--igtl-listen goes only with --igtl PORT: add that, or leave it out. See: palpa "
                 "paracentesis --help"},
         Mistake{"Excludes",
@@ -157,13 +157,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "--sex and --phantom do not go together: leave one of them out. See: palpa patient "
                 "build --help"},
         Mistake{"Missing",
-                {"paracentesis", "--station", "no/such/thing"},
+                {"subclavian", "--station", "no/such/thing"},
                 "--station needs a file that is there, not 'no/such/thing'. See: palpa "
                 "paracentesis --help"},
         Mistake{"Pseudonym",
-                {"paracentesis", "--trainee", "Jane Doe"},
+                {"subclavian", "--trainee", "Jane Doe"},
                 "--trainee: a pseudonym has 1 to 32 letters, digits, - or _, and begins with a "
-                "letter or a digit. See: palpa paracentesis --help"}),
+                "letter or a digit. See: palpa subclavian --help"}),
     [](const testing::TestParamInfo<Mistake>& one) { return one.param.name; });
 
 TEST(Mistakes, AShippedFileIsProposedForANameThatIsNearly) {
@@ -171,7 +171,7 @@ TEST(Mistakes, AShippedFileIsProposedForANameThatIsNearly) {
   for (const auto& [option, typed, meant] :
        {std::tuple{"--station", "virtual_bnech.json", "stations/virtual_bench.json"},
         {"--expert-path", "paracentesis_expert_pth.json", "tasks/paracentesis_expert_path.json"}}) {
-    const std::string said = commands.complaintAbout({"paracentesis", option, typed});
+    const std::string said = commands.complaintAbout({"subclavian", option, typed});
     EXPECT_TRUE(holds(said, std::string(meant) + "?")) << said;
   }
 }
@@ -179,7 +179,7 @@ TEST(Mistakes, AShippedFileIsProposedForANameThatIsNearly) {
 TEST(Mistakes, WhatIsTypedInLengthIsCut) {
   Commands commands;
   const std::string said =
-      commands.complaintAbout({"paracentesis", "--seed", std::string(100'000, '9')});
+      commands.complaintAbout({"subclavian", "--seed", std::string(100'000, '9')});
   EXPECT_LT(said.size(), 250u);
   EXPECT_TRUE(holds(said, "999...'")) << said;
 }

@@ -98,7 +98,7 @@ TEST(Slips, OnAWordToChooseTheRightOneIsProposedAndAllAreNamed) {
 TEST(Slips, WhereNothingIsNearNothingIsProposed) {
   Commands commands;
   for (const Words& words :
-       {Words{"qqqqqqq"}, {"paracentesis", "--qqqqqqq"}, {"report", "qqqqqqq"}}) {
+       {Words{"qqqqqqq"}, {"subclavian", "--qqqqqqq"}, {"report", "qqqqqqq"}}) {
     const std::string said = commands.complaintAbout(words);
     EXPECT_EQ(faultOf(said), "") << said;
     EXPECT_TRUE(holds(said, "qqqqqqq")) << said;

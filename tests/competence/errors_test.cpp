@@ -130,7 +130,7 @@ TEST(SixErrors, SayTheirMomentFigureAndThresholdInClinicalWords) {
   EXPECT_NE(e.sentence.find("The needle was aimed 14° too far toward the head over "),
             std::string::npos)
       << e.sentence;
-  EXPECT_NE(e.sentence.find("(up to 10° is acceptable): there lies the artery"), std::string::npos)
+  EXPECT_NE(e.sentence.find("(an error from 10° on): there lies the artery"), std::string::npos)
       << e.sentence;
   EXPECT_GT(e.t_s, 2);  // 10 mm of approach and 10 mm of puncture, at 10 mm/s
 }

@@ -3,13 +3,16 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <fstream>
+#include <thread>
 
 #include "anatomy/base/error.h"
 #include "apps/console/jobs.h"
+#include "apps/os/real_time.h"
 #include "apps/runtime/clock.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
@@ -38,13 +41,31 @@ TEST(Child, NothingOfOursStaysOpenAndItIsItsOwnMaster) {
   ::pthread_sigmask(SIG_SETMASK, &old, nullptr);
   ASSERT_TRUE(ends(child));
   const auto lines = lastLines(folder / "log.txt", 10);
-  ASSERT_EQ(lines.size(), 5u);
+  ASSERT_EQ(lines.size(), 6u);
   EXPECT_EQ(lines[0], "open 0 1 2");
   EXPECT_EQ(lines[1], "own_group 1");
   EXPECT_EQ(lines[2], "own_session 1");
   EXPECT_EQ(lines[3], "input /dev/null");
   EXPECT_EQ(lines[4], "blocked 0");
   for (const int one : {file, high, line[0], line[1]}) ::close(one);
+}
+
+/// What gives way itself would start a session that gives way: the starter does not.
+TEST(Child, OfAStarterHasThePriorityOfWhoMadeIt) {
+  const test::ScratchFolder folder("priority");
+  os::ProcessStarter starter;
+  const int ours = ::getpriority(PRIO_PROCESS, 0);
+  os::ProcessId child, niced;
+  std::thread([&] {
+    os::giveWay();
+    niced = os::start({"facts"}, folder / "niced.txt", false);
+    child = starter.start({"facts"}, folder / "log.txt");
+    EXPECT_THROW(starter.start({"facts"}, "/proc/there/is/none/log.txt"), Error);
+  }).join();
+  ASSERT_TRUE(ends(child) && ends(niced));
+  const auto priority = [&](const char* log) { return lastLines(folder / log, 1).at(0); };
+  EXPECT_EQ(priority("log.txt"), "priority " + std::to_string(ours));
+  EXPECT_NE(priority("niced.txt"), priority("log.txt"));
 }
 
 TEST(Child, ItsLogIsTheUsersAlone) {

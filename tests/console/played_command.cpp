@@ -2,6 +2,7 @@
 
 #include <dirent.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ std::string after(const std::vector<std::string>& arguments, const std::string& 
 }
 
 /// Open descriptors beside the one that looks, whose process group and session it is, where its
-/// input comes from.
+/// input comes from, its priority.
 int tellFacts() {
   DIR* const folder = ::opendir("/proc/self/fd");
   std::string open;
@@ -35,9 +36,10 @@ int tellFacts() {
   std::error_code none;
   sigset_t blocked;
   ::sigprocmask(SIG_BLOCK, nullptr, &blocked);
-  std::printf("open%s\nown_group %d\nown_session %d\ninput %s\nblocked %d\n", open.c_str(),
-              ::getpgrp() == ::getpid(), ::getsid(0) == ::getpid(),
-              fs::read_symlink("/proc/self/fd/0", none).c_str(), ::sigismember(&blocked, SIGTERM));
+  std::printf("open%s\nown_group %d\nown_session %d\ninput %s\nblocked %d\npriority %d\n",
+              open.c_str(), ::getpgrp() == ::getpid(), ::getsid(0) == ::getpid(),
+              fs::read_symlink("/proc/self/fd/0", none).c_str(), ::sigismember(&blocked, SIGTERM),
+              ::getpriority(PRIO_PROCESS, 0));
   return 0;
 }
 

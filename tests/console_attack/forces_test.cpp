@@ -21,9 +21,9 @@ constexpr char kId[] = "20260301-123000-1a2b3c4d";
 /// Virtual time: every tick follows from the seed alone, however the computer is loaded.
 std::vector<std::string> sessionIn(const fs::path& out, const std::string& live) {
   std::vector<std::string> all{
-      "paracentesis", "--operator", "expert", "--fast",   "--no-views",
-      "--quiet",      "--seed",     "7",      "--trials", std::to_string(test::counted(1, 10)),
-      "--out",        out.string()};
+      "subclavian", "--operator", "expert", "--fast",   "--no-views",
+      "--quiet",    "--seed",     "7",      "--trials", std::to_string(test::counted(1, 10)),
+      "--out",      out.string()};
   if (!live.empty()) all.insert(all.end(), {"--live", live});
   return all;
 }

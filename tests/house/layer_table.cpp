@@ -168,7 +168,7 @@ Layers judgementLayers() {
        .ours = {"anatomy/geometry", "haptics", "ar/boards", "apps/training", "apps/assess",
                 "apps/study/analysis"},
        .never = {"apps/record", "apps/twin", "apps/task_*"},
-       .libraries = {"Eigen", "JSON", "Cairo"}},
+       .libraries = {"Eigen", "JSON", "Cairo", "WebP"}},
   };
 }
 

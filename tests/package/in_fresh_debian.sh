@@ -46,12 +46,12 @@ expect "  its data are the package's" grep -q '"/usr/share/palpa/assets"' <<<"$a
 expect "  pictures are drawn by OpenGL" grep -q 'drawn by OpenGL' <<<"$answer"
 sed -n 's/^ *"verdict": "\(.*\)"$/      \1/p' <<<"$answer"
 timed "a demonstration without pictures" as_user \
-  palpa paracentesis --operator expert --fast --no-views --trials 1 --quiet --out /tmp/x
+  palpa subclavian --operator expert --fast --no-views --trials 1 --quiet --out /tmp/x
 expect "  left its report, its table and its evidence" \
   test -s /tmp/x/report.html -a -s /tmp/x/trials.csv -a -s /tmp/x/session.palpa
 timed "  and gives the same forces when it is replayed" as_user palpa replay /tmp/x/session.palpa
 timed "a demonstration with pictures" as_user \
-  palpa paracentesis --operator expert --fast --trials 1 --quiet --out /tmp/y
+  palpa subclavian --operator expert --fast --trials 1 --quiet --out /tmp/y
 expect "  left pictures" bash -c 'ls /tmp/y/view-*.png'
 as_user timeout --signal=INT 12 palpa console --no-open --port 8765 >/tmp/console.txt 2>&1 &
 for _ in $(seq 50); do

@@ -99,10 +99,10 @@ try paracentesis palpa para
 try "export" palpa records ex
 try --format palpa records export --f
 try "json" palpa records export --format j
-try expert palpa paracentesis --operator = ex
+try expert palpa subclavian --operator = ex
 try "my station.json" palpa doctor --station my
 try "results of May" palpa doctor --out res
-try "" palpa paracentesis --seed ""
+try "" palpa subclavian --seed ""
 try "my station.json" palpa replay my
 try show palpa records sho
 

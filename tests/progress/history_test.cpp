@@ -30,7 +30,7 @@ TEST(History, WhatDiffersIsNeverInOneSeries) {
       EXPECT_EQ(t.force_feedback, series.force_feedback);
       EXPECT_EQ(t.condition, series.condition);
     }
-  EXPECT_EQ(all.back().name().find("paracentesis"), 0u);
+  EXPECT_EQ(all.back().name().find("subclavian access"), 0u);
 }
 
 TEST(History, WhatDoesNotCountIsNamed) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 
 #include "synthetic_palpation.h"
 #include "synthetic_report.h"
@@ -73,13 +74,31 @@ std::int64_t mostHeld(const SessionReport& report) {
 }
 
 TEST(LongReport, IsNeverHeldWhole) {
-  const SessionReport brief = needleCourses(2), wide = needleCourses(60);
+  const SessionReport brief = needleCourses(2), wide = needleCourses(130);
   const std::int64_t of_brief = mostHeld(brief), of_wide = mostHeld(wide);
   const auto size = static_cast<std::int64_t>(bytesOf(wide, "wide").size());
-  std::printf("2 trials take %.0f kB, 60 trials %.0f kB; their page has %.0f kB\n", 1e-3 * of_brief,
-              1e-3 * of_wide, 1e-3 * size);
+  std::printf("2 trials take %.0f kB, 130 trials %.0f kB; their page has %.0f kB\n",
+              1e-3 * of_brief, 1e-3 * of_wide, 1e-3 * size);
   EXPECT_GT(size, 3 * kSlack);  // else nothing is shown
   EXPECT_LT(of_wide, of_brief + kSlack);
+}
+
+/// With the grain of a camera in its pictures, five of each trial.
+TEST(LongReport, OfEightTrialsCanBeMailed) {
+  const fs::path folder = freshFolder("mailed");
+  cv::Mat grain(720, 1280, CV_8UC3);
+  cv::randn(grain, cv::Scalar(120, 140, 160), cv::Scalar(6, 6, 6));
+  cv::imwrite((folder / "view.png").string(), grain);
+  SessionReport report = syntheticReport(8);
+  for (TrialPage& page : report.trials)
+    page.pictures.assign(5, {folder / "view.png", "Vein entered", 1});
+  writeReport(report, folder / "report.html");
+  EXPECT_LT(fs::file_size(folder / "report.html"), 1'000'000u);
+  const std::string page = slurp(folder / "report.html"), sign = "data:image/webp";
+  int carried = 0;
+  for (std::size_t at = page.find(sign); at != std::string::npos; at = page.find(sign, at + 1))
+    ++carried;
+  EXPECT_EQ(carried, 40);
 }
 
 }  // namespace

@@ -12,14 +12,6 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-/// A real PNG: one grey pixel.
-constexpr unsigned char kPixel[] = {0x89, 'P', 'N',  'G',  '\r', '\n', 0x1a, '\n', 0,    0, 0, 13,
-                                    'I',  'H', 'D',  'R',  0,    0,    0,    1,    0,    0, 0, 1,
-                                    8,    0,   0,    0,    0,    0x3a, 0x7e, 0x9b, 0x55, 0, 0, 0,
-                                    10,   'I', 'D',  'A',  'T',  0x78, 0x9c, 0x63, 0x68, 0, 0, 0,
-                                    0x82, 0,   0x81, 0x77, 0xcd, 0x72, 0xb6, 0,    0,    0, 0, 'I',
-                                    'E',  'N', 'D',  0xae, 0x42, 0x60, 0x82};
-
 std::string written(const SessionReport& report, const std::string& name) {
   const fs::path file = freshFolder(name) / "report.html";
   writeReport(report, file);
@@ -138,42 +130,6 @@ TEST(Page, NeedsNoNetworkAndNoScript) {
        {"http://", "https://", "<script", "<link", "@import", "url(", "<iframe"}) {
     EXPECT_FALSE(contains(page, load)) << load;
   }
-}
-
-TEST(Page, EmbedsPicturesAndNamesLostOnes) {
-  SessionReport report = syntheticReport(1);
-  const fs::path folder = freshFolder("pictures");
-  std::ofstream(folder / "view-1.png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(kPixel), sizeof(kPixel));
-  std::ofstream(folder / "letter.png") << "no picture";
-  report.trials[0].pictures = {{folder / "view-1.png", "Vein entered", 26.2},
-                               {folder / "letter.png", "Lung touched", 18.3},
-                               {folder / "gone.png", "Success", -1}};
-  writeReport(report, folder / "report.html");
-  const std::string page = slurp(folder / "report.html");
-  EXPECT_TRUE(contains(page, "data:image/png;base64,iVBORw0KGgo"));
-  EXPECT_TRUE(contains(page, "letter.png could not be read"));
-  EXPECT_TRUE(contains(page, "gone.png could not be read"));
-  EXPECT_FALSE(contains(page, folder.string()));  // a page says nothing of folders
-}
-
-/// A session of hours has a thousand pictures: the page would have a gigabyte.
-TEST(Page, ShowsPicturesFromBesideItWhereItIsLarge) {
-  const fs::path folder = freshFolder("large");
-  std::ofstream(folder / "view-1.png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(kPixel), sizeof(kPixel));
-  const std::vector<Picture> pictures{{folder / "view-1.png", "Vein entered", 26.2}};
-  Html page;
-  page.element("p", "Whatever a page says besides does not count.");
-  writePictures(page, pictures, 0);
-  EXPECT_TRUE(contains(page.str(), "data:image/png;base64,iVBORw0KGgo"));
-  EXPECT_FALSE(contains(page.str(), "src=\"view-1.png\""));
-  Html larger;
-  larger.countPicture(sizeof(kPixel));
-  writePictures(larger, pictures, 0);
-  EXPECT_FALSE(contains(larger.str(), "data:image"));
-  EXPECT_TRUE(contains(larger.str(), "src=\"view-1.png\""));
-  EXPECT_TRUE(contains(larger.str(), "files beside it"));
 }
 
 TEST(Page, SameInputGivesTheSameBytes) {

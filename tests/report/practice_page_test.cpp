@@ -99,8 +99,8 @@ TEST(TraineePage, KindsOfTrialsAreKeptApartAndNamed) {
   const std::string page = traineePage(report);
   EXPECT_TRUE(tells(page, "SIMULATED"));
   EXPECT_EQ(occurrences(page, "class=\"card series\""), 3u);
-  EXPECT_TRUE(tells(page, "Paracentesis, force feedback off"));
-  EXPECT_TRUE(tells(page, "Paracentesis, simulated"));
+  EXPECT_TRUE(tells(page, "Subclavian access, force feedback off"));
+  EXPECT_TRUE(tells(page, "Subclavian access, simulated"));
   EXPECT_TRUE(tells(page, "Left out of every figure: 1 familiarisation, 1 void."));
 }
 

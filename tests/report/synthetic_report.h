@@ -75,7 +75,7 @@ inline std::vector<assess::Penalty> penaltiesWithTrouble() {
            "mm"},
           {"PHASE_2",
            "Direction",
-           "The needle pointed 7.1° away from the optimum, 1.18 times what is acceptable.",
+           "The needle pointed 7.1° away from the optimum, 1.18 times what experts vary by.",
            1180,
            0.2,
            236,
@@ -180,7 +180,7 @@ inline TrialPage pageOf(const assess::TrialAssessment& assessment) {
 
 inline SessionReport syntheticReport(int trials = 1) {
   SessionReport report;
-  report.title = "Paracentesis of the subclavian vein, right side";
+  report.title = "Access to the subclavian vein, right side";
   report.trainee = "simulated novice";
   report.simulated = true;
   report.when = "17 May 2024, 10:42";

@@ -91,7 +91,7 @@ TEST(ForceGuard, StandsOnlyBesideTheProgramItself) {
   EXPECT_FALSE(guard.stands());
   EXPECT_EQ(guard.step(0), runtime::kNever);
   EXPECT_TRUE(isGuard({"force-guard", "1", "2"}));
-  EXPECT_FALSE(isGuard({"paracentesis", "--fast", "--quiet"}));
+  EXPECT_FALSE(isGuard({"subclavian", "--fast", "--quiet"}));
 }
 
 /// Its program pushes and is gone from one packet to the next: nobody says zero.

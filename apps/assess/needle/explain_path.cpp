@@ -62,8 +62,8 @@ Penalty direction(const TrialReview& r, const calibration::TaughtPath& path,
   Penalty p{"PHASE_2", "Direction of the needle", "", r.values.phase_2,
             weight,    weight * r.values.phase_2, {}};
   const bool within = r.values.phase_2 < 1000;
-  const std::string margin = std::string(within ? ": within" : ": beyond") +
-                             " the acceptable margin (" + degrees(path.direction_acceptable) + ").";
+  const std::string margin = std::string(within ? ": no farther" : ": farther") +
+                             " than experts vary (" + degrees(path.direction_acceptable) + ").";
   switch (r.direction.judged) {
     case DirectionError::Judged::never:
       p.sentence = "The needle was never inserted, so it had no direction to judge.";

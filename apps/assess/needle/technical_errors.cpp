@@ -88,7 +88,7 @@ void site(const TrialReview& r, const std::vector<Vec3>& offsets_L, const ErrorR
       {"site", "Wrong site relative to the clavicle",
        "The skin was punctured " + millimetres(std::abs(worst.value)) +
            (near ? " too close to the clavicle" : " too far below the clavicle") + ", at " +
-           seconds(worst.t_s) + " (up to " + millimetres(rules.site_off) + " is acceptable)" +
+           seconds(worst.t_s) + " (an error from " + millimetres(rules.site_off) + " on)" +
            often(worst.times) +
            (near ? ": from there the needle meets the bone instead of passing behind it."
                  : ": from there the way behind the bone is long and leads toward the ribs and the "
@@ -109,8 +109,8 @@ void landmarks(const TrialReview& r, const std::vector<Vec3>& offsets_L,
         {"landmarks", title,
          "The skin was punctured " + millimetres(std::abs(along.value)) +
              (along.value > 0 ? " too far toward the breastbone" : " too far toward the shoulder") +
-             ", at " + seconds(along.t_s) + " (up to " + millimetres(rules.landmark_off) +
-             " is acceptable)" + often(along.times) +
+             ", at " + seconds(along.t_s) + " (an error from " + millimetres(rules.landmark_off) +
+             " on)" + often(along.times) +
              ": the junction of the clavicle's medial and middle thirds was missed.",
          along.t_s, 1e3 * std::abs(along.value), 1e3 * rules.landmark_off, "mm", along.times});
     return;
@@ -121,8 +121,8 @@ void landmarks(const TrialReview& r, const std::vector<Vec3>& offsets_L,
   errors->push_back(
       {"landmarks", title,
        "The needle was aimed " + degrees(caudal.value) + " too far toward the feet over " +
-           millimetres(travel) + ", from " + seconds(caudal.t_s) + " on (up to " +
-           degrees(rules.too_caudal) + " is acceptable)" + often(caudal.times) +
+           millimetres(travel) + ", from " + seconds(caudal.t_s) + " on (an error from " +
+           degrees(rules.too_caudal) + " on)" + often(caudal.times) +
            ": the suprasternal notch, which it is aimed at, was missed.",
        caudal.t_s, kToDegrees * caudal.value, kToDegrees * rules.too_caudal, "deg", caudal.times});
 }
@@ -143,7 +143,7 @@ void periosteum(const TrialReview& r, const ErrorRules& rules, Errors* errors) {
   errors->push_back({"periosteum", "Through the periosteum of the clavicle",
                      "The needle was pressed into the clavicle with up to " + newtons(worst.value) +
                          ", at " + seconds(worst.t_s) + ", for " + seconds(held) +
-                         " in all (up to " + newtons(rules.periosteum_N) + " is acceptable)" +
+                         " in all (an error from " + newtons(rules.periosteum_N) + " on)" +
                          often(worst.times) +
                          ": it goes through the periosteum, hurts, and blocks; lower the needle "
                          "and pass behind the bone.",
@@ -155,23 +155,22 @@ void aims(const TrialReview& r, const anatomy::LandmarkFrame& frame,
   const auto [flat, flat_way] = astray(r, frame, path, rules.too_shallow, rules.aim_travel,
                                        [](const Aim& a) { return -a.steeper; });
   if (flat.times)
-    errors->push_back({"shallow", "Too shallow",
-                       "The needle was led " + degrees(flat.value) + " too flat over " +
-                           millimetres(flat_way) + ", from " + seconds(flat.t_s) + " on (up to " +
-                           degrees(rules.too_shallow) + " is acceptable)" + often(flat.times) +
-                           ": it runs onto the bone or passes in front of the vein.",
-                       flat.t_s, kToDegrees * flat.value, kToDegrees * rules.too_shallow, "deg",
-                       flat.times});
+    errors->push_back(
+        {"shallow", "Too shallow",
+         "The needle was led " + degrees(flat.value) + " too flat over " + millimetres(flat_way) +
+             ", from " + seconds(flat.t_s) + " on (an error from " + degrees(rules.too_shallow) +
+             " on)" + often(flat.times) + ": it runs onto the bone or passes in front of the vein.",
+         flat.t_s, kToDegrees * flat.value, kToDegrees * rules.too_shallow, "deg", flat.times});
   const auto [high, high_way] = astray(r, frame, path, rules.too_cephalad, rules.aim_travel,
                                        [](const Aim& a) { return a.more_cephalad; });
   if (high.times)
-    errors->push_back(
-        {"cephalad", "Too cephalad",
-         "The needle was aimed " + degrees(high.value) + " too far toward the head over " +
-             millimetres(high_way) + ", from " + seconds(high.t_s) + " on (up to " +
-             degrees(rules.too_cephalad) + " is acceptable)" + often(high.times) +
-             ": there lies the artery, not the vein.",
-         high.t_s, kToDegrees * high.value, kToDegrees * rules.too_cephalad, "deg", high.times});
+    errors->push_back({"cephalad", "Too cephalad",
+                       "The needle was aimed " + degrees(high.value) +
+                           " too far toward the head over " + millimetres(high_way) + ", from " +
+                           seconds(high.t_s) + " on (an error from " + degrees(rules.too_cephalad) +
+                           " on)" + often(high.times) + ": there lies the artery, not the vein.",
+                       high.t_s, kToDegrees * high.value, kToDegrees * rules.too_cephalad, "deg",
+                       high.times});
 }
 
 double bloodIn(const TrialReview& r, const Interval& stay, const ScoringRules& rules) {

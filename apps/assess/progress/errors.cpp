@@ -23,6 +23,19 @@ const std::map<Engine, std::vector<ErrorKind>> kKindsOfEngines{
       {"back_wall_punctures", 0, false, "the vein's back wall was punctured",
        "advance more slowly near the vein: in a porcine jugular 3 mm/s kept the needle in it "
        "best"},
+      {"error_landmarks", 0.5, false, "the landmarks were not identified",
+       "feel for the clavicle's bend and the suprasternal notch, and name both aloud, before the "
+       "needle touches the skin"},
+      {"error_site", 0.5, false, "the entry was at the wrong distance from the clavicle",
+       "mark the entry a finger's breadth below the clavicle before the needle touches the skin"},
+      {"error_left_vein", 0.5, false, "the needle left the vein",
+       "rest the hand on the patient and hold the hub still as soon as blood comes"},
+      {"error_periosteum", 0.5, false, "the needle was pressed through the periosteum",
+       "touch the clavicle lightly, then lower the needle and pass behind it"},
+      {"error_shallow", 0.5, false, "the needle was led too flat",
+       "pass just behind the clavicle: too flat a needle runs in front of the vein"},
+      {"error_cephalad", 0.5, false, "the needle was aimed too far toward the head",
+       "aim at the suprasternal notch, a finger in it: toward the head lies the artery"},
       {"needle_passes", 3, false, "more than three needle passes",
        "after three passes stop and ask: every further pass multiplies complications"},
       {"needle_passes", 1, false, "more than one needle pass",
@@ -33,7 +46,7 @@ const std::map<Engine, std::vector<ErrorKind>> kKindsOfEngines{
        "lower the syringe before the advance, so that the needle slides under the clavicle"},
       {"col_vein", 0, false, "the vein was touched without success",
        "draw the plunger before the vein is reached and stop when blood comes"},
-      {"phase_2", 1000, false, "the direction was beyond what is acceptable",
+      {"phase_2", 1000, false, "the direction was farther off than experts vary",
        "turn the needle fully toward the sternal end before the advance"},
       {"success", 0.5, true, "the vein was not reached",
        "repeat entry point and direction with the three fixed views before the next trial"}}},
@@ -107,6 +120,25 @@ std::vector<ErrorCount> errorsIn(const PracticeView& practice) {
     if (const Happened all = happenedIn(kind, practice.trials); all.with > 0)
       counts.push_back({&kind, all, happenedIn(kind, late)});
   return counts;
+}
+
+std::vector<std::string> practiseNext(const PracticeView& practice) {
+  std::vector<std::string> all;
+  const auto add = [&](const ErrorKind& kind) {
+    if (all.size() < 2 && std::find(all.begin(), all.end(), kind.practise) == all.end())
+      all.emplace_back(kind.practise);
+  };
+  const std::vector<ErrorCount> errors = errorsIn(practice);
+  for (const ErrorCount& error : errors)
+    if (error.recurs()) add(*error.kind);
+  if (!all.empty() || practice.trials.empty()) return all;
+  for (const ErrorCount& error : errors)
+    if (happenedIn(*error.kind, practice.trials.last(1)).with > 0) add(*error.kind);
+  if (!all.empty()) return all;
+  if (!practice.trials.back().succeeded())
+    return {"the same again, until it succeeds several times in a row"};
+  return {practice.engine == Engine::needle ? "the same on other patients and on the other side"
+                                            : "the same again, with other cases"};
 }
 
 namespace {

@@ -36,6 +36,11 @@ struct ErrorCount {
 /// Every kind that happened at least once, in the order of the kinds.
 std::vector<ErrorCount> errorsIn(const PracticeView& practice);
 
+/// What to practise next, at most two things, in words that follow "Practise next:": against what
+/// went wrong at least twice in the last five trials, else in the last one; where nothing did, the
+/// same on others or again. Empty without a trial.
+std::vector<std::string> practiseNext(const PracticeView& practice);
+
 /// What a part of the score costs, a trial.
 struct Cost {
   const char* metric;

@@ -37,6 +37,12 @@ constexpr std::array<std::string_view, kFigures> kKept{"back_wall_punctures",
                                                        "coverage_medium_pct",
                                                        "econ_mean_mm",
                                                        "econ_var_mm2",
+                                                       "error_cephalad",
+                                                       "error_landmarks",
+                                                       "error_left_vein",
+                                                       "error_periosteum",
+                                                       "error_shallow",
+                                                       "error_site",
                                                        "false_alarms",
                                                        "first_pass_success",
                                                        "grips",
@@ -126,7 +132,7 @@ std::vector<double> Series::values(std::string_view metric) const {
 }
 
 std::string Series::name() const {
-  return task + (force_feedback ? "" : ", force feedback off") +
+  return training::taskWords(task) + (force_feedback ? "" : ", force feedback off") +
          (condition.empty() ? "" : ", " + condition) + (simulated ? ", simulated" : "");
 }
 

@@ -19,7 +19,7 @@ namespace palpa::progress {
 /// The figures that pages of practice use, numbered; those of a trial stand in this order. Throws
 /// Error for a metric that this program knows and these pages do not keep; `kNoFigure` for a name
 /// that it does not know.
-inline constexpr std::size_t kFigures = 38, kNoFigure = kFigures;
+inline constexpr std::size_t kFigures = 44, kNoFigure = kFigures;
 std::size_t figureNumber(std::string_view metric);
 /// The same; `kNoFigure` for every metric that is not kept.
 std::size_t keptNumber(std::string_view metric);
@@ -96,7 +96,7 @@ struct Series {
   bool simulated = false, force_feedback = true;
   std::vector<PracticeTrial> trials;
   std::vector<double> values(std::string_view metric) const;  ///< as PracticeView
-  std::string name() const;  ///< "paracentesis, force feedback off, simulated"
+  std::string name() const;  ///< "subclavian access, force feedback off, simulated"
 };
 
 /// Those that count, longest series first; trials of one series by trainee, arrival and number.

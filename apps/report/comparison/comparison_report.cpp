@@ -164,13 +164,9 @@ void writeOrders(Html& html, const ComparisonReport& report) {
 }
 
 void writeComparisonHeader(Html& html, const ComparisonReport& report) {
-  const auto header = html.in("header");
-  html.element("h1", report.title);
-  writeWho(html, report.trainee, "", report.trials.size());
-  const bool simulated =
-      report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
-                                      [](const assess::ComparisonTrial& t) { return t.simulated; });
-  if (simulated) writeSimulatedBanner(html);
+  const bool simulated = isSimulated(report, report.trials,
+                                     [](const assess::ComparisonTrial& t) { return t.simulated; });
+  writeSessionHeader(html, report, report.trials.size(), simulated);
 }
 
 void writeComparisonPage(Html& html, const ComparisonReport& report) {
@@ -195,9 +191,7 @@ void writeComparisonPage(Html& html, const ComparisonReport& report) {
         const auto section = html.in("section", {{"class", "card"}});
         writePictures(html, report.pictures);
       }
-      writeFacts(html, "Where this task stands", report.taxonomy);
-      writeFacts(html, "Station", report.station);
-      writeFacts(html, "Notes", report.notes);
+      writeAppendix(html, report);
     }
     const auto footer = html.in("footer");
     html.element("p", {{"class", "muted"}},

@@ -6,18 +6,14 @@
 
 #include "apps/assess/comparison/comparison_trial.h"
 #include "apps/report/page/html.h"
-#include "apps/report/page/page_parts.h"
+#include "apps/report/page/session_page.h"
 
 namespace palpa::report {
 
-struct ComparisonReport {
-  std::string title;
-  std::string trainee;     ///< pseudonym, "simulated expert", ...
-  bool simulated = false;  ///< operator or bench are simulated: said on top
+struct ComparisonReport : SessionPage {
   double too_hard_N = 0;
   std::vector<assess::ComparisonTrial> trials;
   std::vector<Picture> pictures;
-  std::vector<Fact> taxonomy, station, notes;
 };
 
 /// One self-contained HTML page: what was told apart and how well, by difference, then each answer;

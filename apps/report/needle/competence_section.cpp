@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "anatomy/base/counted.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/style.h"
 
@@ -32,12 +33,21 @@ const char* cssOf(Mark mark) {
   return mark == Mark::done ? "good" : mark == Mark::not_done ? "bad" : "open";
 }
 
+/// An error begins where the puncture is in danger, points where a hand leaves the experts' range.
+std::string noErrorWords(const assess::TrialAssessment& trial) {
+  const std::string none = "None of the six common errors of this procedure was made.";
+  return trial.total > 0 ? none +
+                               " What was less than an error, but farther off than experts vary, "
+                               "costs points all the same; the score says how many."
+                         : none;
+}
+
 void writeErrors(Html& html, const assess::TrialAssessment& trial) {
   html.element("h3", "Errors of technique");
   if (trial.errors.empty()) {
-    html.element("p", trial.skin_punctures
-                          ? "None of the six common errors of this procedure was made."
-                          : "The needle was not inserted: there is no technique to judge.");
+    html.element("p", trial.skin_punctures ? noErrorWords(trial)
+                                           : "The needle was not inserted: there is no technique "
+                                             "to judge.");
     return;
   }
   const auto list = html.in("ul", {{"class", "errors"}});
@@ -58,11 +68,16 @@ std::string scoreText(const competence::Verdict& v) {
   const competence::ChecklistScore& s = v.score;
   const std::string share =
       s.open ? "between " + shareText(s.low) + " and " + shareText(s.high) : shareText(s.low);
+  const std::string left_out =
+      s.did_not_arise ? " " + counted(s.did_not_arise, "item") +
+                            " did not arise: left out of this share, and counted as done in the "
+                            "level."
+                      : "";
   return std::to_string(s.done) + " of " + std::to_string(s.done + s.not_done + s.open) +
-         " items done (" + share + "; " + shareText(v.standard) + " asked for). Major items " +
-         std::to_string(s.major_done) + " of " + std::to_string(s.major) + ", minor " +
-         std::to_string(s.minor_done) + " of " + std::to_string(s.minor) +
-         (s.open ? " so far" : "") + ": " + v.level + ".";
+         " items done (" + share + "; " + shareText(v.standard) + " asked for)." + left_out +
+         " Level: " + v.level + ", by " + std::to_string(s.major_done) + " of " +
+         std::to_string(s.major) + " major and " + std::to_string(s.minor_done) + " of " +
+         std::to_string(s.minor) + " minor items" + (s.open ? " so far." : ".");
 }
 
 void writeChecklist(Html& html, const competence::Verdict& v) {

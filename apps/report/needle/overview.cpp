@@ -180,7 +180,7 @@ void writeOverview(Html& html, const std::vector<TrialPage>& trials) {
   html.element(
       "p", {{"class", "muted small"}},
       "Force: force feedback. Total: penalty points, lower is better. Time: s. Contacts: scoring "
-      "samples, 20 a second. Entry: mm. Direction: 1000 is the edge of the acceptable. Path: "
+      "samples, 20 a second. Entry: mm. Direction: 1000 is as far as experts vary. Path: "
       "distance from the optimal line, mean in mm, variance in mm². Number: skin punctures, "
       "redirections.");
 }

@@ -123,8 +123,8 @@ constexpr Code kCodes[] = {
      "Insertion: distance of the entry point from the optimum, plus the error in depth before the "
      "needle is turned."},
     {"PHASE_2",
-     "Direction: deviation of the turned needle from the optimum. 1000 is the edge of what is "
-     "acceptable; below it nothing is charged. The weight rises from there to 2000; scored as "
+     "Direction: deviation of the turned needle from the optimum. 1000 is as far as "
+     "experts vary; below it nothing is charged. The weight rises from there to 2000; scored as "
      "published, it jumps at both."},
     {"ECON_MEAN",
      "Economy of movement: mean distance of the needle from the optimal line while it is "

@@ -14,11 +14,6 @@
 namespace palpa::report {
 namespace {
 
-bool isSimulated(const SessionReport& report) {
-  return report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
-                                         [](const auto& t) { return t.assessment.simulated; });
-}
-
 bool byPath(const SessionReport& report) {
   return std::all_of(report.trials.begin(), report.trials.end(),
                      [](const auto& t) { return t.assessment.by_path; });
@@ -39,19 +34,14 @@ void writeLinks(Html& html, const SessionReport& report) {
 }
 
 void writeHeader(Html& html, const SessionReport& report) {
-  const auto header = html.in("header");
-  html.element("h1", report.title);
-  writeWho(html, report.trainee, report.when, report.trials.size());
-  if (isSimulated(report)) writeSimulatedBanner(html);
-  writeLinks(html, report);
+  const bool simulated = isSimulated(
+      report, report.trials, [](const TrialPage& page) { return page.assessment.simulated; });
+  writeSessionHeader(html, report, report.trials.size(), simulated,
+                     [&] { writeLinks(html, report); });
 }
 
 void writeFooter(Html& html, const SessionReport& report) {
   const auto footer = html.in("footer");
-  if (byPath(report)) {
-    const auto card = html.in("div", {{"class", "card"}});
-    writeGlossary(html);
-  }
   writeMadeBy(html, {&report.station, &report.notes, &report.registration});
 }
 
@@ -76,11 +66,14 @@ void writePage(Html& html, const SessionReport& report) {
       const auto main = html.in("main");
       writeTrials(html, report);
       writeOverview(html, report.trials);
-      writeSubtaskSection(html, report.parts);
-      writeFacts(html, "Where this task stands", report.taxonomy);
-      writeFacts(html, "Registration", report.registration);
-      writeFacts(html, "Station", report.station);
-      writeFacts(html, "Notes", report.notes);
+      if (report.parts.augmented) writeSubtaskSection(html, report.parts);
+      writeAppendix(
+          html, report,
+          [&] {
+            if (!report.parts.augmented) writeSubtaskSection(html, report.parts);
+            writeFacts(html, "Registration", report.registration);
+          },
+          byPath(report) ? [&] { writeGlossary(html); } : std::function<void()>());
     }
     writeFooter(html, report);
   }

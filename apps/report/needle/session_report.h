@@ -9,6 +9,7 @@
 #include "apps/assess/competence/verdict.h"
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/report/page/page_parts.h"
+#include "apps/report/page/session_page.h"
 #include "apps/report/page/subtask_table.h"
 
 namespace palpa::report {
@@ -30,18 +31,11 @@ struct TrialPage {
   BesideTrial beside = {};         ///< without samples: none
 };
 
-struct SessionReport {
-  std::string title;       ///< "Paracentesis of the subclavian vein, right side"
-  std::string trainee;     ///< pseudonym, "simulated expert", ...
-  bool simulated = false;  ///< operator or bench are simulated: said on top and beside results
-  std::string when;        ///< date and time, empty in virtual time
+struct SessionReport : SessionPage {
   std::vector<TrialPage> trials;
   Courses<assess::TrialSample> courses = {};  ///< empty: the pages hold their samples
-  std::vector<Fact> station;                  ///< device, camera, display, rates
   /// registration error and its source, simulated truth named as such
   std::vector<Fact> registration;
-  std::vector<Fact> notes;     ///< lateness, lost tracking, safety trips
-  std::vector<Fact> taxonomy;  ///< "Where this task stands"
   SubtaskSection parts;
 };
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "anatomy/base/text_forms.h"
-#include "anatomy/base/whole_file.h"
 #include "apps/report/page/style.h"
 
 namespace palpa::report {
@@ -116,51 +114,6 @@ void writeDataTable(Html& html, const DataTable& table) {
 
 void writeOpenTable(Html& html, const DataTable& table) {
   if (!table.rows.empty()) writeRows(html, table);
-}
-
-namespace {
-
-/// The file's bytes if it is a PNG, else "".
-std::string readPng(const std::filesystem::path& file) {
-  const std::string bytes = readWhole(file).value_or("");
-  return bytes.starts_with("\x89PNG\r\n\x1a\n") ? bytes : "";
-}
-
-void writeOne(Html& html, const Picture& picture, bool beside) {
-  const auto figure = html.in("figure", {{"class", "picture"}});
-  const std::string bytes = readPng(picture.file);
-  if (bytes.empty()) {
-    html.element("p", {{"class", "missing"}},
-                 "The picture " + picture.file.filename().string() + " could not be read.");
-  } else if (beside) {
-    html.empty(
-        "img",
-        {{"src", picture.file.filename().string()}, {"alt", picture.caption}, {"loading", "lazy"}});
-  } else {
-    html.countPicture(bytes.size());
-    html.empty("img",
-               {{"src", "data:image/png;base64," + base64(bytes)}, {"alt", picture.caption}});
-  }
-  const auto caption = html.in("figcaption");
-  if (picture.t_s >= 0) html.element("span", {{"class", "time"}}, fixed(picture.t_s, 1) + " s");
-  html.text(picture.caption);
-}
-
-}  // namespace
-
-void writePictures(Html& html, const std::vector<Picture>& pictures, std::size_t carried) {
-  if (pictures.empty()) return;
-  const bool beside = html.pictureBytes() > carried;
-  html.element("h3", "Pictures");
-  if (beside)
-    html.element("p", {{"class", "muted small"}},
-                 "This page is large already: these pictures are in the files beside it. Open it "
-                 "in the session's folder to see them.");
-  const auto grid = html.in("div", {{"class", "pictures"}});
-  for (const Picture& picture : pictures) {
-    writeOne(html, picture, beside);
-    html.passOn();
-  }
 }
 
 namespace {

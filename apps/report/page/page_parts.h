@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "apps/report/page/html.h"
+#include "apps/report/page/pictures.h"
 
 /// What the page of any session is made of, besides its trials.
 namespace palpa::report {
@@ -17,12 +17,6 @@ namespace palpa::report {
 /// "0.4 mm").
 struct Fact {
   std::string name, value, remark;
-};
-
-struct Picture {
-  std::filesystem::path file;  ///< PNG beside the report; embedded into it
-  std::string caption;
-  double t_s = -1;  ///< moment in the trial; < 0: none
 };
 
 /// Calls `draw` with what a trial's charts are drawn from, trial by trial in the order of their
@@ -48,7 +42,8 @@ void eachPage(const std::vector<Page>& pages, const Courses<Sample>& courses, co
   while (next != pages.end()) write(*next++);
 }
 
-/// <head> with title ("Paracentesis · P07") and style sheet; `more_style` is CSS of a page's own.
+/// <head> with title ("Subclavian access · P07") and style sheet; `more_style` is CSS of a page's
+/// own.
 void writeHeadElement(Html& html, const std::string& title, const std::string& trainee,
                       std::string_view more_style = {});
 
@@ -79,17 +74,6 @@ void writeDataTable(Html& html, const DataTable& table);
 
 /// The same always open.
 void writeOpenTable(Html& html, const DataTable& table);
-
-/// Bytes of pictures that a page carries in itself, of some fifty trials; larger pages a browser
-/// opens slowly or not at all. Of pictures alone: a session's report and what `palpa finish` makes
-/// of it differ by some words, and show the same trials' pictures in the same way.
-inline constexpr std::size_t kCarried = 150'000'000;
-
-/// The pictures with caption and moment, embedded; from `carried` on they are shown from their
-/// files, which must lie beside the page, and this is said. One that cannot be read (or is no PNG)
-/// is named in its place: a lost picture must not cost the report.
-void writePictures(Html& html, const std::vector<Picture>& pictures,
-                   std::size_t carried = kCarried);
 
 /// Shortest digits that read back to the same bits; for files.
 std::string shortest(double value);

@@ -88,6 +88,12 @@ nav a:hover{border-color:var(--blue)}
 .badge{display:inline-block;margin:0 .5rem;padding:.05rem .6rem;border:1px solid currentColor;
   border-radius:999px;font-size:.8rem;font-weight:500;color:var(--muted);vertical-align:.1em}
 .badge.bad{color:var(--bad-ink)}
+.next{margin:.9rem 0 0}
+.remarks{padding:18px 28px}
+.remarks h2{font-size:1.05rem;margin-bottom:.5rem}
+.remarks ul{margin:0;padding-left:1.2rem}
+.appendix>summary{font-size:1.05rem;font-weight:650;cursor:pointer}
+.appendix .card{border:0;padding:0;margin:28px 0 0}
 footer{padding-top:8px;padding-bottom:48px}
 .facts{width:100%;border-collapse:collapse}
 .facts th,.facts td{text-align:left;vertical-align:top;padding:.5rem .9rem .5rem 0;
@@ -241,7 +247,9 @@ svg .wall{stroke:var(--ink);stroke-width:2}
   h3{margin-top:1.4rem}
   .score td,.score .clear td{padding-top:.3rem;padding-bottom:.3rem}
   .score tfoot{display:table-row-group}
-  nav{display:none}
+  .score .clear .reason p{display:none}
+  .pictures{grid-template-columns:repeat(3,1fr);gap:10px}
+  nav,.appendix{display:none}
   .card{border:0;border-radius:0;padding:0;margin:0 0 10mm}
   .trial+.trial,#all-trials{break-before:page}
   svg.wide{display:block}

@@ -5,6 +5,7 @@
 #include "apps/report/page/page_parts.h"
 #include "apps/report/palpation/palpation_charts.h"
 #include "apps/report/plot/chart_frame.h"
+#include "apps/report/plot/path_data.h"
 
 namespace palpa::report {
 namespace {
@@ -99,26 +100,31 @@ void drawCells(Html& svg, const MapFrame& at, const assess::CoverageMap& map) {
 /// Of the area: a rectangle, or its outline.
 void drawEdge(Html& svg, const MapFrame& at, const assess::SearchArea& area) {
   if (area.outline.empty()) return svgRect(svg, "edge", at.left, at.top, at.width, at.height);
-  std::string path;
+  PathData path;
   for (const Eigen::Vector2d& corner : area.outline) {
     const Vec3 p(corner.x(), corner.y(), 0);
-    path += (path.empty() ? 'M' : 'L') + coordinate(at.x(p)) + ' ' + coordinate(at.y(p));
+    path.lineTo(at.x(p), at.y(p));
   }
-  svgPath(svg, "edge", path + 'z');
+  path.close();
+  svgPath(svg, "edge", path.str());
 }
 
 constexpr double kContour = 2e-3;  // m, from one line of equal height to the next
 
 /// Where one side of a cell crosses a height; two of them make a piece of its line.
-std::string contourIn(const MapFrame& at, const std::array<Vec3, 3>& corners, double height) {
-  std::string path;
+void addContour(PathData& path, const MapFrame& at, const std::array<Vec3, 3>& corners,
+                double height) {
+  bool begun = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 &a = corners[i], &b = corners[(i + 1) % 3];
     if ((a.z() < height) == (b.z() < height)) continue;
     const Vec3 p = a + (height - a.z()) / (b.z() - a.z()) * (b - a);
-    path += (path.empty() ? 'M' : 'L') + coordinate(at.x(p)) + ' ' + coordinate(at.y(p));
+    if (begun)
+      path.lineTo(at.x(p), at.y(p));
+    else
+      path.moveTo(at.x(p), at.y(p));
+    begun = true;
   }
-  return path;
 }
 
 /// Lines of equal height of a curved top, as a map of hills has them.
@@ -129,25 +135,24 @@ void drawContours(Html& svg, const MapFrame& at, const assess::SearchArea& area)
     return assess::onTop(
         area, Vec3(area.half_x * (2.0 * i / kParts - 1), area.half_y * (2.0 * j / kParts - 1), 0));
   };
-  std::string path;
+  PathData path;
   for (int i = 0; i < kParts; ++i) {
     for (int j = 0; j < kParts; ++j) {
       for (const auto& half : {std::array{on(i, j), on(i + 1, j), on(i + 1, j + 1)},
                                std::array{on(i, j), on(i + 1, j + 1), on(i, j + 1)}}) {
         const auto [low, high] = std::minmax({half[0].z(), half[1].z(), half[2].z()});
         for (double k = std::ceil(low / kContour); k * kContour <= high; ++k)
-          path += contourIn(at, half, k * kContour);
+          addContour(path, at, half, k * kContour);
       }
     }
   }
-  if (!path.empty()) svgPath(svg, "contour", path);
+  if (const std::string lines = path.str(); !lines.empty()) svgPath(svg, "contour", lines);
 }
 
 std::string linePath(const MapFrame& at, const assess::NormalAnatomy& normal) {
-  std::string path;
-  for (const Vec3& p : normal.line_P)
-    path += (path.empty() ? 'M' : 'L') + coordinate(at.x(p)) + ' ' + coordinate(at.y(p));
-  return path;
+  PathData path;
+  for (const Vec3& p : normal.line_P) path.lineTo(at.x(p), at.y(p));
+  return path.str();
 }
 
 /// A broad band with its middle line, no farther than the map, and its name where it begins.

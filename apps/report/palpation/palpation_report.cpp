@@ -14,12 +14,6 @@
 namespace palpa::report {
 namespace {
 
-bool isSimulatedPalpation(const PalpationReport& report) {
-  return report.simulated ||
-         std::any_of(report.trials.begin(), report.trials.end(),
-                     [](const PalpationPage& page) { return page.assessment.facts.simulated; });
-}
-
 void writePalpationLinks(Html& html, const PalpationReport& report) {
   if (report.trials.size() < 2) return;
   const auto nav = html.in("nav", {{"aria-label", "Trials"}});
@@ -36,24 +30,21 @@ void writePalpationLinks(Html& html, const PalpationReport& report) {
 }
 
 void writePalpationHeader(Html& html, const PalpationReport& report) {
-  const auto header = html.in("header");
-  html.element("h1", report.title);
-  writeWho(html, report.trainee, report.when, report.trials.size());
-  if (isSimulatedPalpation(report)) writeSimulatedBanner(html);
-  if (!report.force_note.empty()) {
-    const auto note = html.in("p", {{"class", "force-note"}, {"role", "note"}});
-    html.element("strong", "About the forces.");
-    html.text(report.force_note);
-  }
-  writePalpationLinks(html, report);
+  const bool simulated = isSimulated(report, report.trials, [](const PalpationPage& page) {
+    return page.assessment.facts.simulated;
+  });
+  writeSessionHeader(html, report, report.trials.size(), simulated, [&] {
+    if (!report.force_note.empty()) {
+      const auto note = html.in("p", {{"class", "force-note"}, {"role", "note"}});
+      html.element("strong", "About the forces.");
+      html.text(report.force_note);
+    }
+    writePalpationLinks(html, report);
+  });
 }
 
 void writePalpationFooter(Html& html, const PalpationReport& report) {
   const auto footer = html.in("footer");
-  {
-    const auto card = html.in("div", {{"class", "card"}});
-    writePalpationGlossary(html);
-  }
   writeMadeBy(html, {&report.station, &report.notes});
 }
 
@@ -79,10 +70,13 @@ void writePalpationPage(Html& html, const PalpationReport& report) {
       const auto main = html.in("main");
       writePalpationTotals(html, report.trials, report.standard);
       writePalpations(html, report);
-      writeSubtaskSection(html, report.parts);
-      writeFacts(html, "Where this task stands", report.taxonomy);
-      writeFacts(html, "Station", report.station);
-      writeFacts(html, "Notes", report.notes);
+      if (report.parts.augmented) writeSubtaskSection(html, report.parts);
+      writeAppendix(
+          html, report,
+          [&] {
+            if (!report.parts.augmented) writeSubtaskSection(html, report.parts);
+          },
+          [&] { writePalpationGlossary(html); });
     }
     writePalpationFooter(html, report);
   }

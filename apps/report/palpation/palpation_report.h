@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/assess/palpation/palpation_assessment.h"
-#include "apps/report/page/page_parts.h"
+#include "apps/report/page/session_page.h"
 #include "apps/report/page/subtask_table.h"
 
 namespace palpa::report {
@@ -19,16 +19,10 @@ struct PalpationPage {
   bool estimated = false;  ///< what the second finger presses with is no sensor's
 };
 
-struct PalpationReport {
-  std::string title;       ///< "Palpation of a breast phantom"
-  std::string trainee;     ///< pseudonym, "simulated expert", ...
-  std::string when;        ///< date and time, empty in virtual time
-  bool simulated = false;  ///< operator or bench are simulated: said on top
+struct PalpationReport : SessionPage {
   std::string force_note;  ///< "Scaled force: ..."; shown near the top; empty: none
   std::vector<PalpationPage> trials;
   Courses<assess::PalpationSample> courses = {};  ///< empty: the pages hold their samples
-  std::vector<Fact> taxonomy;                     ///< "Where this task stands"
-  std::vector<Fact> station, notes;
   assess::PalpationStandard standard;
   SubtaskSection parts;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/report/page/page_parts.h"
+#include "apps/report/plot/path_data.h"
 
 namespace palpa::report {
 namespace {
@@ -21,13 +22,8 @@ void appendColumn(std::vector<ChartPoint>& line, const std::vector<ChartPoint>& 
   for (const std::ptrdiff_t i : keep) line.push_back(column[static_cast<std::size_t>(i)]);
 }
 
-std::string stroke(const std::vector<ChartPoint>& line, const Axis& x, const Axis& y, char first) {
-  std::string d;
-  for (const ChartPoint& p : line) {
-    d += d.empty() ? first : 'L';
-    d += coordinate(x.at(p.x)) + ' ' + coordinate(y.at(p.y));
-  }
-  return d;
+void draw(PathData& path, const std::vector<ChartPoint>& line, const Axis& x, const Axis& y) {
+  for (const ChartPoint& p : line) path.lineTo(x.at(p.x), y.at(p.y));
 }
 
 }  // namespace
@@ -61,19 +57,24 @@ std::vector<std::vector<ChartPoint>> decimated(const std::vector<ChartPoint>& po
 }
 
 std::string linePath(const std::vector<ChartPoint>& points, const Axis& x, const Axis& y) {
-  std::string d;
-  for (const auto& line : decimated(points, x)) d += stroke(line, x, y, 'M');
-  return d;
+  PathData path;
+  for (const auto& line : decimated(points, x)) {
+    path.moveTo(x.at(line.front().x), y.at(line.front().y));
+    draw(path, line, x, y);
+  }
+  return path.str();
 }
 
 std::string areaPath(const std::vector<ChartPoint>& points, const Axis& x, const Axis& y,
                      double base) {
-  std::string d;
+  PathData path;
   for (const auto& line : decimated(points, x)) {
-    const ChartPoint start{line.front().x, base}, end{line.back().x, base};
-    d += stroke({start}, x, y, 'M') + stroke(line, x, y, 'L') + stroke({end}, x, y, 'L') + 'Z';
+    path.lineTo(x.at(line.front().x), y.at(base));
+    draw(path, line, x, y);
+    path.lineTo(x.at(line.back().x), y.at(base));
+    path.close();
   }
-  return d;
+  return path.str();
 }
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "apps/assess/statistics/sample.h"
 #include "apps/report/page/page_parts.h"
+#include "apps/report/plot/path_data.h"
 #include "apps/report/plot/svg_plot.h"
 #include "apps/report/practice/practice_axes.h"
 #include "apps/report/practice/progress_words.h"
@@ -48,16 +49,17 @@ ChartPoint pointAt(std::size_t trial, double value) {
 /// Upper edge there, lower edge back.
 std::string meanBand(const progress::GroupCurve& curve, double factor, const Axis& x,
                      const Axis& y) {
-  std::string path;
+  PathData path;
   const auto add = [&](std::size_t i, double value) {
-    path += (path.empty() ? "M" : "L") + coordinate(x.at(static_cast<double>(i + 1))) + ' ' +
-            coordinate(std::clamp(y.at(factor * value), y.from_px, y.to_px));
+    path.lineTo(x.at(static_cast<double>(i + 1)),
+                std::clamp(y.at(factor * value), y.from_px, y.to_px));
   };
   for (std::size_t i = 0; i < curve.mean.size(); ++i)
     add(i, curve.mean[i].interval ? curve.mean[i].interval->second : curve.mean[i].mean);
   for (std::size_t i = curve.mean.size(); i-- > 0;)
     add(i, curve.mean[i].interval ? curve.mean[i].interval->first : curve.mean[i].mean);
-  return path.empty() ? path : path + "Z";
+  if (!curve.mean.empty()) path.close();
+  return path.str();
 }
 
 void drawGroupCurve(Html& html, const progress::GroupCurve& curve, const std::string& metric,

@@ -23,7 +23,7 @@ struct PracticePage {
 std::string practiceHtml(const PracticePage& page, std::vector<progress::PracticeTrial> trials,
                          const std::function<void(Html&, const progress::Series&)>& series);
 
-/// "Paracentesis, force feedback off", and that it is simulated.
+/// "Subclavian access, force feedback off", and that it is simulated.
 void writeSeriesHeading(Html& html, const progress::Series& series);
 
 /// What the pages of practice need besides the usual style sheet.

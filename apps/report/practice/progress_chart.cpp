@@ -7,6 +7,7 @@
 #include "apps/assess/progress/learning_curve.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/plot/chart_frame.h"
+#include "apps/report/plot/path_data.h"
 #include "apps/report/plot/svg_plot.h"
 #include "apps/report/practice/practice_axes.h"
 #include "apps/report/practice/progress_words.h"
@@ -27,14 +28,15 @@ std::vector<ChartPoint> pointsOf(const std::vector<double>& values, double facto
 /// Closed outline between two lines over trials 1 ... N.
 std::string bandPath(const std::vector<double>& low, const std::vector<double>& high, double factor,
                      const Axis& x, const Axis& y) {
-  std::string path;
+  PathData path;
   const auto add = [&](std::size_t i, double value) {
-    path += (path.empty() ? "M" : "L") + coordinate(x.at(static_cast<double>(i + 1))) + ' ' +
-            coordinate(std::clamp(y.at(factor * value), y.from_px, y.to_px));
+    path.lineTo(x.at(static_cast<double>(i + 1)),
+                std::clamp(y.at(factor * value), y.from_px, y.to_px));
   };
   for (std::size_t i = 0; i < high.size(); ++i) add(i, high[i]);
   for (std::size_t i = low.size(); i-- > 0;) add(i, low[i]);
-  return path + "Z";
+  path.close();
+  return path.str();
 }
 
 /// Round limits that hold every value, with 0 where it is near.

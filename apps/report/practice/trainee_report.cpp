@@ -151,18 +151,9 @@ std::string recurringSentence(const std::vector<progress::ErrorCount>& errors) {
   return words.empty() ? "no error happened twice in the last five trials." : words + '.';
 }
 
-void writePractice(Html& html, const progress::Series& series,
-                   const std::vector<progress::ErrorCount>& errors) {
-  std::set<std::string> said;
-  for (const progress::ErrorCount& e : errors) {
-    if (!e.recurs() || said.size() == 2 || !said.insert(e.kind->practise).second) continue;
-    item(html, "Practise next:", e.kind->practise + std::string("."));
-  }
-  if (!said.empty()) return;
-  const bool success = series.trials.back().succeeded();
-  item(html, "Practise next:",
-       success ? "the same on other patients and on the other side."
-               : "the same again, until it succeeds several times in a row.");
+void writePractice(Html& html, const progress::Series& series) {
+  for (const std::string& next : progress::practiseNext(series))
+    item(html, "Practise next:", next + '.');
 }
 
 }  // namespace
@@ -200,7 +191,7 @@ void writeTraineeSummary(Html& html, const progress::Series& series) {
   item(html, "Costs most now:", costSentence(series));
   item(html, "Nearest misses:", missSentence(series));
   item(html, "Recurring:", recurringSentence(errors));
-  writePractice(html, series, errors);
+  writePractice(html, series);
 }
 
 }  // namespace palpa::report

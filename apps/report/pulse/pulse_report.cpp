@@ -119,15 +119,9 @@ void writePulsePage(Html& html, const PulseReport& report) {
     const auto root = html.in("html", {{"lang", "en"}});
     writeHeadElement(html, report.title, report.trainee, kPulseStyle);
     const auto body = html.in("body");
-    {
-      const auto header = html.in("header");
-      html.element("h1", report.title);
-      writeWho(html, report.trainee, "", report.trials.size());
-      const bool simulated =
-          report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
-                                          [](const auto& t) { return t.simulated; });
-      if (simulated) writeSimulatedBanner(html);
-    }
+    writeSessionHeader(
+        html, report, report.trials.size(),
+        isSimulated(report, report.trials, [](const auto& t) { return t.simulated; }));
     {
       const auto main = html.in("main");
       const std::vector<assess::PulseTrial> trials = pulsesThatCount(report.trials);
@@ -141,9 +135,7 @@ void writePulsePage(Html& html, const PulseReport& report) {
         const auto section = html.in("section", {{"class", "card"}});
         writePictures(html, report.pictures);
       }
-      writeFacts(html, "Where this task stands", report.taxonomy);
-      writeFacts(html, "Station", report.station);
-      writeFacts(html, "Notes", report.notes);
+      writeAppendix(html, report);
     }
     const auto footer = html.in("footer");
     html.element("p", {{"class", "muted"}}, kPulseSource);

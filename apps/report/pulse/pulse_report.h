@@ -6,18 +6,14 @@
 
 #include "apps/assess/pulse/pulse_trial.h"
 #include "apps/report/page/html.h"
-#include "apps/report/page/page_parts.h"
+#include "apps/report/page/session_page.h"
 
 namespace palpa::report {
 
-struct PulseReport {
-  std::string title;
-  std::string trainee;     ///< pseudonym, "simulated expert", ...
-  bool simulated = false;  ///< operator or bench are simulated: said on top
+struct PulseReport : SessionPage {
   assess::PulseRules rules;
   std::vector<assess::PulseTrial> trials;
   std::vector<Picture> pictures;
-  std::vector<Fact> taxonomy, station, notes;
 };
 
 /// One self-contained HTML page: how many were found, counted and told; each trial with what was

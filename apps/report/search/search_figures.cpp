@@ -7,10 +7,12 @@
 #include "anatomy/base/whole_file.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/style.h"
+#include "apps/report/plot/path_data.h"
 
 namespace palpa::report {
 namespace {
 
+constexpr double kDot = 0.1;        // px: what lasts a tick is a dot
 constexpr double kStepOfWay = 0.4;  // U: between the points of a line that is drawn
 constexpr double kKeyRow = 20;      // px
 constexpr double kPale = 5;         // U: of a floor that lies under something else
@@ -50,20 +52,20 @@ void nameElements(Html& svg, const std::vector<ElementMark>& elements, const Axi
 template <typename Belongs>
 std::string lineOf(const std::vector<ProbePlace>& way, const Axis& x, const Axis& y,
                    Belongs belongs) {
-  std::string d;
+  PathData path;
   double last_x = 0, last_y = 0;
   bool on = false;
   for (const ProbePlace& p : way) {
     const bool now = belongs(p);
     if (now && (!on || std::hypot(p.x - last_x, p.y - last_y) >= kStepOfWay)) {
-      d += (on ? 'L' : 'M') + coordinate(x.at(p.x)) + ' ' + coordinate(y.at(p.y));
-      if (!on) d += "l0.1 0";  // what lasts a tick is a dot
+      if (!on) path.moveTo(x.at(p.x) - kDot, y.at(p.y));
+      path.lineTo(x.at(p.x), y.at(p.y));
       last_x = p.x;
       last_y = p.y;
     }
     on = now;
   }
-  return d;
+  return path.str();
 }
 
 /// Below the map, in two columns.

@@ -40,13 +40,9 @@ svg .choice.other{stroke:var(--bad);stroke-dasharray:3.2 2.2}
 )css";
 
 void writeSearchHeader(Html& html, const SearchReport& report) {
-  const auto header = html.in("header");
-  html.element("h1", report.title);
-  writeWho(html, report.trainee, "", report.trials.size());
   const bool simulated =
-      report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
-                                      [](const assess::SearchTrial& t) { return t.simulated; });
-  if (simulated) writeSimulatedBanner(html);
+      isSimulated(report, report.trials, [](const assess::SearchTrial& t) { return t.simulated; });
+  writeSessionHeader(html, report, report.trials.size(), simulated);
 }
 
 void writeSearchMain(Html& html, const SearchReport& report) {
@@ -60,9 +56,8 @@ void writeSearchMain(Html& html, const SearchReport& report) {
     const auto section = html.in("section", {{"class", "card"}});
     writePictures(html, report.pictures);
   }
-  writeFacts(html, "Where this task stands", report.taxonomy);
-  writeFacts(html, "Station", report.station);
-  writeFacts(html, "Notes", report.notes);
+  writeAppendix(
+      html, report, [] {}, [&] { writeSearchGlossary(html); });
 }
 
 void writeSearchPage(Html& html, const SearchReport& report) {
@@ -76,10 +71,6 @@ void writeSearchPage(Html& html, const SearchReport& report) {
     writeSearchHeader(html, report);
     writeSearchMain(html, report);
     const auto footer = html.in("footer");
-    {
-      const auto card = html.in("div", {{"class", "card"}});
-      writeSearchGlossary(html);
-    }
     writeMadeBy(html, {&report.station, &report.notes});
   }
   html.passOn();

@@ -6,21 +6,17 @@
 #include <vector>
 
 #include "apps/assess/search/search_trial.h"
-#include "apps/report/page/page_parts.h"
+#include "apps/report/page/session_page.h"
 #include "apps/report/page/subtask_table.h"
 #include "apps/report/search/search_figures.h"
 
 namespace palpa::report {
 
-struct SearchReport {
-  std::string title;
-  std::string trainee;     ///< pseudonym, "simulated expert", ...
-  bool simulated = false;  ///< operator or bench are simulated: said on top
+struct SearchReport : SessionPage {
   std::vector<assess::SearchTrial> trials;
   SubtaskMeanings subtasks;  ///< names as in the trials' doses, and what they mean
   std::vector<Picture> pictures;
   std::optional<SearchFigures> figures = {};  ///< of one episode
-  std::vector<Fact> taxonomy, station, notes;
   std::string unit_note;  ///< how large the floor is: "1 U = 0.06 mm in the hand"
 };
 

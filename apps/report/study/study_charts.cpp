@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/report/page/page_parts.h"
+#include "apps/report/plot/path_data.h"
 #include "apps/report/plot/svg_plot.h"
 
 namespace palpa::report {
@@ -43,13 +44,13 @@ std::vector<ChartPoint> pointsOf(const PlotSeries& s, double PlotPoint::*of) {
 
 /// From the low ends to the right and over the high ends back.
 void drawBand(Html& svg, const StudyArea& area, const PlotSeries& s) {
-  std::string d;
-  const auto to = [&](double x, double y) {
-    d += (d.empty() ? "M" : "L") + coordinate(area.x.at(x)) + ' ' + coordinate(area.y.at(y));
-  };
+  PathData path;
+  const auto to = [&](double x, double y) { path.lineTo(area.x.at(x), area.y.at(y)); };
   for (const PlotPoint& p : s.points) to(p.x, p.low);
   for (auto p = s.points.rbegin(); p != s.points.rend(); ++p) to(p->x, p->high);
-  if (!d.empty()) svgPath(svg, "study-band " + familyClass(s.family), d + 'Z');
+  if (s.points.empty()) return;
+  path.close();
+  svgPath(svg, "study-band " + familyClass(s.family), path.str());
 }
 
 void drawDividers(Html& svg, const StudyArea& area, const Plot& plot) {
