@@ -53,6 +53,7 @@ void runConsole();
 
 /// `palpa report trial`: one trial of a needle session, judged, as a page.
 void addReportTrial(CLI::App& report);
+void addReportCertificate(CLI::App& report);
 
 /// camera, tool, workspace, registration, latency, force-sensor, material, friction, inclusion,
 /// all.

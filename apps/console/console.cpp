@@ -130,6 +130,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   addPeopleRoutes(server, console);
   addSessionRoutes(server, console);
   addLiveRoutes(server, console);
+  addRatingRoutes(server, console);
   addReplayRoutes(server, console);
   checkHealth(console);
   const Serving serving(server);

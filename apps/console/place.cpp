@@ -1,6 +1,8 @@
 #include "apps/console/place.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "apps/console/guard.h"
 #include "apps/runtime/clock.h"
@@ -26,6 +28,11 @@ std::string newId() { return runtime::dateText("%Y%m%d-%H%M%S-") + randomKey().s
 
 bool isShown(const std::string& name) {
   if (name == "report.html" || name == "trials.csv") return true;
+  for (const auto& [stem, ending] :
+       {std::pair<std::string_view, std::string_view>{"exam-", ".html"}, {"certificate-", ".pdf"}})
+    if (name.size() > stem.size() + ending.size() && name.starts_with(stem) &&
+        name.ends_with(ending))
+      return plainName(name.substr(0, name.size() - ending.size()));
   return name.size() > 9 && name.rfind("view-", 0) == 0 &&
          name.compare(name.size() - 4, 4, ".png") == 0 &&
          plainName(name.substr(0, name.size() - 4));

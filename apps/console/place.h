@@ -28,8 +28,8 @@ bool isId(const std::string& text);
 std::string newId();
 using runtime::utcNow;
 
-/// A name in a session's folder that may be shown: report.html, trials.csv, view-*.png; else it is
-/// not handed out.
+/// A name in a session's folder that may be shown: report.html, trials.csv, view-*.png,
+/// exam-*.html, certificate-*.pdf; else it is not handed out.
 bool isShown(const std::string& name);
 
 }  // namespace palpa::console

@@ -40,6 +40,7 @@ void addStationRoutes(WebServer& server,
 void addPeopleRoutes(WebServer& server, Console& console);   ///< trainees, reports, cohort, studies
 void addSessionRoutes(WebServer& server, Console& console);  ///< tasks, sessions, commands, files
 void addLiveRoutes(WebServer& server, Console& console);     ///< events and pictures as they happen
+void addRatingRoutes(WebServer& server, Console& console);   ///< marks of a rater, the verdict
 void addReplayRoutes(WebServer& server, Console& console);   ///< a trial on one timeline
 
 void checkHealth(Console& console);

@@ -287,7 +287,8 @@ const char* mediaTypeOf(const std::string& name) {
       {".svg", "image/svg+xml"},
       {".csv", "text/csv; charset=utf-8"},
       {".png", "image/png"},
-      {".jpg", "image/jpeg"}};
+      {".jpg", "image/jpeg"},
+      {".pdf", "application/pdf"}};
   for (const auto& [ending, type] : kTypes)
     if (name.ends_with(ending)) return type;
   return "application/octet-stream";

@@ -31,7 +31,10 @@ bool isOneOf(const std::string_view (&names)[n], std::string_view name) {
 bool isSessionsOwn(std::string_view name) {
   if (name.ends_with(".part")) name.remove_suffix(5);
   const bool picture = name.starts_with("view-") && name.ends_with(".png");
-  return picture || isOneOf(kTexts, name) || isOneOf(kOthers, name);
+  const bool rated = (name.starts_with("rating-") && name.ends_with(".csv")) ||
+                     (name.starts_with("exam-") && name.ends_with(".html")) ||
+                     (name.starts_with("certificate-") && name.ends_with(".pdf"));
+  return picture || rated || isOneOf(kTexts, name) || isOneOf(kOthers, name);
 }
 
 bool namesTrainee(const fs::path& file, const std::string& trainee) {

@@ -7,6 +7,7 @@ import { LiveCurves } from "./live_curves.js";
 import { LiveEvents } from "./live_events.js";
 import { followPicture, followSession } from "./live_stream.js";
 import { badge, notice, simulatedBadge, tag } from "./parts.js";
+import { isRated, ratingForm } from "./rating_form.js";
 
 /** The session's second, carried on between messages while a trial runs. */
 class SessionTime {
@@ -151,6 +152,15 @@ export async function show({ root, life, params: [id], open }) {
     ),
     keys,
   );
+  const marks = h("div", {});
+  root.append(marks);
+  let rated = 0; // the trial whose form stands there
+  const rate = async (trial) => {
+    if (!isRated(session) || !(trial > rated)) return;
+    rated = trial;
+    const form = await ratingForm(life, id, trial, false);
+    if (!life.over && rated === trial) put(marks, form);
+  };
   const moving = session.blind ? { again() {}, stop() {} } : followPicture(life, id, view);
   life.atEnd(
     watchConnection((since) => {
@@ -186,6 +196,7 @@ export async function show({ root, life, params: [id], open }) {
       alarmShown = cry;
       put(alarm, cry ? notice("stop", cry) : null);
     }
+    rate(Number(s.trial)).catch((error) => put(marks, notice("bad", error.message)));
     if (Number(s.trial) > curves.trial) curves.clear(Number(s.trial));
     controls.show(s);
     figure.show(s);

@@ -15,6 +15,7 @@ import {
   who,
 } from "./format.js";
 import { badge, button, facts, notice, progress, simulatedBadge, table } from "./parts.js";
+import { isRated, ratingForm } from "./rating_form.js";
 import { reportFrame } from "./report_frame.js";
 
 /** The one sentence that comes first. */
@@ -98,6 +99,20 @@ function pictures(session, files) {
       ),
     ),
   ];
+}
+
+/** What a rater marked of each trial that counts, and the verdict. */
+async function examined(life, id, results) {
+  const counting = results.filter((r) => r.outcome !== "void");
+  const cards = await Promise.all(
+    counting.map(async (r) => {
+      const form = await ratingForm(life, id, r.number, true);
+      return counting.length === 1
+        ? form
+        : h("details", {}, h("summary", {}, `Trial ${r.number}`), form);
+    }),
+  );
+  return cards.length ? [h("h2", {}, "Examination"), ...cards] : [];
 }
 
 /** Makes the report of a session whose program died, and shows the page anew when it is there. */
@@ -187,6 +202,7 @@ export async function show({ root, life, params: [id], open }) {
     );
     return;
   }
+  if (isRated(session) && results.length) root.append(...(await examined(life, id, results)));
   const more = pictures(session, files);
   if (more) root.append(...more);
   root.append(

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 #include "program.h"
@@ -72,6 +74,22 @@ TEST(Rate, FromTheFormToTheVerdict) {
   EXPECT_TRUE(says(contentOf(here / "r1.html"), "Pass (simulated)"));
   EXPECT_TRUE(says(failed.out, "Fail: Global rating: 2 of 5 on average; 3 is asked for."))
       << failed.out << failed.err;
+  const Outcome sheet = inHere(
+      {"report", "certificate", "A", "--answers", "one.csv", "--rater", "R1", "--out", "c.pdf"},
+      here, false);
+  ASSERT_EQ(sheet.exit_code, 0) << sheet.err;
+  ASSERT_EQ(std::system(("pdftotext -layout '" + (here / "c.pdf").string() + "'").c_str()), 0);
+  const std::string certified = contentOf(here / "c.txt");
+  for (const char* words :
+       {"SIMULATED", "Access to the subclavian vein", "Passed", "T001", "simulator and rater R1",
+        "25 of 25 items", "4 of 5 on average", "cannot certify anybody", "Signature of the rater"})
+    EXPECT_TRUE(says(certified, words)) << words << " in\n" << certified;
+  const Outcome refused = inHere(
+      {"report", "certificate", "A", "--answers", "other.csv", "--rater", "R2", "--out", "d.pdf"},
+      here, false);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(says(refused.err, "was not passed: Global rating: 2 of 5")) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(here / "d.pdf"));
   const Outcome beside = inHere({"report", "trial", "A", "--beside", "A", "--answers", "one.csv",
                                  "--standard", "90", "--out", "b.html"},
                                 here, false);

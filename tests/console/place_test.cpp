@@ -41,13 +41,34 @@ TEST(Place, NewIdsAreIdsInTheOrderOfTimeAndNeverTwice) {
 }
 
 TEST(Place, OnlyWhatASessionShowsIsShown) {
-  for (const char* name : {"report.html", "trials.csv", "view-01-01-start.png", "view-a.png"})
+  for (const char* name : {"report.html", "trials.csv", "view-01-01-start.png", "view-a.png",
+                           "exam-12.html", "certificate-3.pdf"})
     EXPECT_TRUE(isShown(name)) << name;
-  for (const std::string name :
-       {"", "session.palpa", "session.palpa-wal", "console.json", "log.txt", "report.html.bak",
-        "Report.html", "../report.html", "report.html/", "./report.html", "view-.png",
-        "view-../x.png", "view-a.png.html", "view-a/b.png", "view-a.PNG", "view-.....png",
-        "xview-a.png", "camera.mjpeg", "view-a.svg"})
+  for (const std::string name : {"",
+                                 "session.palpa",
+                                 "session.palpa-wal",
+                                 "console.json",
+                                 "log.txt",
+                                 "report.html.bak",
+                                 "Report.html",
+                                 "../report.html",
+                                 "report.html/",
+                                 "./report.html",
+                                 "view-.png",
+                                 "view-../x.png",
+                                 "view-a.png.html",
+                                 "view-a/b.png",
+                                 "view-a.PNG",
+                                 "view-.....png",
+                                 "xview-a.png",
+                                 "camera.mjpeg",
+                                 "view-a.svg",
+                                 "rating-1.csv",
+                                 "exam-1.html.part",
+                                 "exam-.html",
+                                 "exam-../x.html",
+                                 "certificate-1.html",
+                                 "certificate-a b.pdf"})
     EXPECT_FALSE(isShown(name)) << name;
   EXPECT_FALSE(isShown(std::string("report.html\0", 12)));
   EXPECT_FALSE(isShown(std::string("view-a\0.png", 11)));

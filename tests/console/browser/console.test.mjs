@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import { after, before, test } from "node:test";
-import { Educator, tabTo } from "./educator.mjs";
+import { Educator, kDesktop, kTablet, tabTo } from "./educator.mjs";
 
 const url = process.env.PALPA_CONSOLE_URL;
 const skip = url ? false : "PALPA_CONSOLE_URL is not set: start a console and give its address";
@@ -238,6 +238,46 @@ test("the result says how it went, and is printed", { skip, timeout: 300_000 }, 
   }
   await report.close();
 });
+
+test(
+  "the trial is rated on the tablet, and the verdict is read",
+  { skip, timeout: 300_000 },
+  async (t) => {
+    await page.setViewportSize(kTablet);
+    await e.go(`#/results/${sessions[0]}`);
+    const card = page.locator(".rating");
+    await card.waitFor();
+    await card.getByLabel("Rater").fill("R1");
+    let clicks = 0;
+    const press = async (label) => {
+      await label.click();
+      ++clicks;
+    };
+    for (const group of await card.locator("fieldset.marks").all()) {
+      const done = group.locator("label", { hasText: /^done$/ });
+      await press((await done.count()) ? done : group.locator("label", { hasText: /^5$/ }));
+    }
+    await card.getByText("13 of 13 marks").waitFor();
+    await press(card.getByRole("button", { name: "Verdict" }));
+    const verdict = page.frameLocator(".rating iframe.report");
+    await verdict.getByText(/^(Pass|Fail) \(simulated\)$/).waitFor({ timeout: 120_000 });
+    assert.equal(await verdict.getByText("No global rating was given").count(), 0);
+    await e.picture("verdict");
+    const passed = await verdict.getByText("Pass (simulated)").count();
+    await press(card.getByRole("button", { name: "Certificate" }));
+    const told = card.locator(".notice").last();
+    await told.filter({ hasText: passed ? "The certificate is made" : "was not passed" }).waitFor({
+      timeout: 60_000,
+    });
+    t.diagnostic(`clicks from the result to the certificate: ${clicks}`);
+    assert.ok(clicks <= 18, `${clicks} clicks`);
+    await e.go("#/station");
+    await e.go(`#/results/${sessions[0]}`);
+    await page.locator(".rating").getByText("13 of 13 marks").waitFor(); // kept
+    await e.examine("rated");
+    await page.setViewportSize(kDesktop);
+  },
+);
 
 test("the replay is scrubbed, an expert beside", { skip, timeout: 500_000 }, async () => {
   await e.go(`#/replay/${sessions[0]}/1`);
