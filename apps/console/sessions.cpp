@@ -95,6 +95,26 @@ json trialsIn(const fs::path& evidence, bool blind) {
   return all;
 }
 
+/// Of the trials that count, for a list: how many there are, how many succeeded or were done, the
+/// mean of their penalties.
+json outcomeOf(const json& trials) {
+  int counting = 0, succeeded = 0, done = 0, scored = 0;
+  double total = 0;
+  for (const json& trial : trials) {
+    const std::string outcome = trial.at("outcome");
+    if (training::isVoid(outcome) || outcome == "interrupted") continue;
+    ++counting;
+    succeeded += outcome == "success";
+    done += outcome == "done";
+    if (!trial.contains("total") || !trial["total"].is_number()) continue;
+    ++scored;
+    total += trial["total"].get<double>();
+  }
+  json told{{"counting", counting}, {"succeeded", succeeded}, {"done", done}};
+  if (scored > 0) told["total"] = total / scored;
+  return told;
+}
+
 json filesIn(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code none;
@@ -227,7 +247,24 @@ json Sessions::described(const std::string& id, const fs::path& folder) {
   return one;
 }
 
+/// What came of one that is over, kept with its facts: a list is asked for every few seconds. Of a
+/// blind one nothing.
+json Sessions::outcomeIn(const fs::path& folder, const json& described, int* read) {
+  json facts = factsOf(folder);
+  if (described["state"] != "finished" || described["blind"] == true) return nullptr;
+  if (facts.contains("outcome")) return facts["outcome"];
+  if (--*read < 0) return nullptr;  // the next time
+  try {
+    facts["outcome"] = outcomeOf(trialsIn(resultsIn(folder) / "session.palpa", false));
+    writeWhole(folder / kFacts, facts.dump(1) + "\n");
+  } catch (const Error&) {  // damaged, or no room: its own page says so
+    return nullptr;
+  }
+  return facts["outcome"];
+}
+
 json Sessions::list() {
+  constexpr int kReadAtOnce = 20;
   look();
   const std::lock_guard lock(mutex_);
   std::vector<std::string> ids;
@@ -237,7 +274,13 @@ json Sessions::list() {
       ids.push_back(entry.path().filename().string());
   std::sort(ids.rbegin(), ids.rend());
   json all = json::array();
-  for (const std::string& id : ids) all.push_back(described(id, place_.sessions() / id));
+  int read = kReadAtOnce;
+  for (const std::string& id : ids) {
+    const fs::path folder = place_.sessions() / id;
+    json one = described(id, folder);
+    one["outcome"] = outcomeIn(folder, one, &read);
+    all.push_back(std::move(one));
+  }
   return all;
 }
 

@@ -71,6 +71,8 @@ class Sessions {
   void connect(const std::string& id, os::ProcessId process);
   nlohmann::json described(const std::string& id, const std::filesystem::path& folder);
   std::string stateOf(const std::string& id, const std::filesystem::path& folder);
+  static nlohmann::json outcomeIn(const std::filesystem::path& folder,
+                                  const nlohmann::json& described, int* read);
   std::string socketOf(const std::string& id) const;
 
   const ConsolePlace& place_;

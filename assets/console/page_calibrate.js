@@ -94,11 +94,7 @@ async function follow(life, job, place, done) {
     put(
       bar,
       progress("Progress of the calibration", now.done),
-      h(
-        "span",
-        { class: "muted" },
-        Number.isFinite(now.done) ? ` ${Math.round(now.done * 100)} %` : " under way",
-      ),
+      h("span", { class: "muted" }, ` ${counted(now.lines) || "under way"}`),
     );
     const text = (now.lines || []).slice(-4);
     if (text.join("\n") !== shown) {
@@ -112,6 +108,12 @@ async function follow(life, job, place, done) {
     if (now.picture) picture.src = `${url("/api/jobs", job, "picture")}?n=${++count}`;
     return true;
   });
+}
+
+/** What is counted just now, "Views of the board: 3 of 20": each step counts anew. */
+function counted(lines) {
+  const last = (lines || []).findLast((line) => /\d+ of \d+/.test(line));
+  return last?.match(/^.*?\d+ of \d+/)[0].replace(/^\[[#.]*\]\s*/, "");
 }
 
 function stateOf(station) {

@@ -1,8 +1,43 @@
-// All sessions, newest first; the ways to trainees' reports and the cohort.
+// All sessions: what came of each, by trainee, task and outcome, in any order; the ways to reports.
 import { list } from "./api.js";
 import { h, put } from "./dom.js";
-import { isOn, moment, sessionState, taskName, who } from "./format.js";
+import { figure, isOn, moment, plural, sessionState, taskName } from "./format.js";
 import { badge, choice, field, simulatedBadge, table } from "./parts.js";
+
+/** Of the trials that count, in words and with a shape. */
+function outcomeOf(s) {
+  const o = s.outcome;
+  if (s.blind) return ["none", "blind study"];
+  if (!o) return ["none", "–"];
+  if (o.counting === 0) return ["none", "no trial counts"];
+  if (o.done > 0) return ["good", `${o.done} of ${o.counting} done`];
+  return [
+    o.succeeded === o.counting ? "good" : "note",
+    `${o.succeeded} of ${o.counting} succeeded`,
+  ];
+}
+
+const share = (s) =>
+  s.outcome && s.outcome.counting > 0
+    ? (s.outcome.succeeded + s.outcome.done) / s.outcome.counting
+    : -1;
+const penalty = (s) => (Number.isFinite(s.outcome?.total) ? s.outcome.total : Infinity);
+const byText = (of) => (a, b) => of(a).localeCompare(of(b));
+
+const kOrders = {
+  when: ["newest first", (a, b) => (a.started_utc < b.started_utc ? 1 : -1)],
+  trainee: ["by trainee", byText((s) => s.trainee || "~")],
+  task: ["by task", byText((s) => taskName(s.task))],
+  best: ["best outcome first", (a, b) => share(b) - share(a) || penalty(a) - penalty(b)],
+  worst: ["worst outcome first", (a, b) => share(a) - share(b) || penalty(b) - penalty(a)],
+};
+
+const kOutcomes = {
+  "": ["any", () => true],
+  all: ["every trial succeeded", (s) => share(s) === 1],
+  some: ["not every trial succeeded", (s) => share(s) >= 0 && share(s) < 1],
+  open: ["still on, or without a result", (s) => share(s) < 0],
+};
 
 function row(s) {
   const path = `#/${isOn(s) ? "session" : "results"}/${encodeURIComponent(s.id)}`;
@@ -13,7 +48,8 @@ function row(s) {
       ? h("a", { href: `#/trainees/${encodeURIComponent(s.trainee)}` }, s.trainee)
       : "nobody",
     s.assessed ? "assessed" : "practice",
-    String(Number(s.trials) || 0),
+    badge(...outcomeOf(s)),
+    Number.isFinite(s.outcome?.total) ? figure(s.outcome.total) : "–",
     [
       h(
         "span",
@@ -26,47 +62,74 @@ function row(s) {
   ];
 }
 
+const namesOf = (map) => Object.entries(map).map(([key, [word]]) => [key, word]);
+const kinds = (sessions, of, word = (x) => x) =>
+  [...new Set(sessions.map(of).filter(Boolean))].sort().map((x) => [x, word(x)]);
+
 export async function show({ root, life, open }) {
   open("Results", h("a", { class: "button", href: "#/cohort" }, "Report on the cohort"));
   const place = h("div", {}),
-    filter = h("div", {});
+    filter = h("div", { class: "row filter" });
   root.append(filter, place);
+  const wish = { trainee: "", task: "", outcome: "", order: "when" };
   let shown = "",
-    chosen = "";
+    offered = "";
+  const choose = (label, key, options) => {
+    const select = choice(options, wish[key]);
+    select.addEventListener("change", () => {
+      wish[key] = select.value;
+      draw();
+    });
+    return field(label, select);
+  };
+  const offer = (sessions) => {
+    const people = kinds(sessions, (s) => s.trainee),
+      tasks = kinds(sessions, (s) => s.task, taskName);
+    const now = JSON.stringify([people, tasks]);
+    if (now === offered || sessions.length < 2) return;
+    offered = now;
+    put(
+      filter,
+      people.length > 1 ? choose("Sessions of", "trainee", [["", "everyone"], ...people]) : null,
+      tasks.length > 1 ? choose("Task", "task", [["", "every task"], ...tasks]) : null,
+      choose("Outcome", "outcome", namesOf(kOutcomes)),
+      choose("Order", "order", namesOf(kOrders)),
+    );
+  };
   const draw = async () => {
     const sessions = await list("/api/sessions");
-    const key = JSON.stringify([sessions, chosen]);
+    const key = JSON.stringify([sessions, wish]);
     if (key === shown) return;
     shown = key;
-    const people = [...new Set(sessions.map((s) => s.trainee).filter(Boolean))].sort();
-    if (!filter.firstChild && people.length > 1) {
-      const select = choice([["", "everyone"], ...people.map((p) => [p, p])], chosen);
-      select.addEventListener("change", () => {
-        chosen = select.value;
-        draw();
-      });
-      put(filter, h("div", { class: "row filter" }, field("Sessions of", select)));
-    }
-    const some = sessions.filter((s) => !chosen || s.trainee === chosen);
+    offer(sessions);
+    const some = sessions
+      .filter((s) => !wish.trainee || s.trainee === wish.trainee)
+      .filter((s) => !wish.task || s.task === wish.task)
+      .filter(kOutcomes[wish.outcome][1])
+      .sort(kOrders[wish.order][1]);
+    if (sessions.length === 0)
+      return void put(
+        place,
+        h(
+          "p",
+          { class: "lead" },
+          "No session has been started from this console yet. ",
+          h("a", { href: "#/session" }, "Start one."),
+        ),
+      );
     put(
       place,
-      some.length
-        ? h(
-            "div",
-            { class: "card flush" },
-            table(
-              `Sessions, newest first${chosen ? `, of ${who(chosen)}` : ""}`,
-              ["When", "Task", "Trainee", "Kind", "Trials", "State"],
-              some.map(row),
-              true,
-            ),
-          )
-        : h(
-            "p",
-            { class: "lead" },
-            "No session has been started from this console yet. ",
-            h("a", { href: "#/session" }, "Start one."),
-          ),
+      h("p", { class: "muted", role: "status" }, plural(some.length, "session")),
+      h(
+        "div",
+        { class: "card flush" },
+        table(
+          `Sessions, ${kOrders[wish.order][0]}`,
+          ["When", "Task", "Trainee", "Kind", "Outcome", "Mean penalty", "State"],
+          some.map(row),
+          true,
+        ),
+      ),
     );
   };
   await draw();
