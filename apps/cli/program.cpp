@@ -16,10 +16,10 @@ Nothing is connected? Everything runs on the virtual bench. What you can do now:
 
   palpa console                            the educator's pages in a browser: everything below by mouse
                                            (palpa alone opens them where there is a display)
-  palpa subclavian                       a session: with a display you hold the needle with the mouse,
+  palpa subclavian                         a session: with a display you hold the needle with the mouse,
                                            without one a simulated expert performs it
-  palpa subclavian --operator novice     watch a simulated novice; read the report's reasons
-  palpa subclavian --trials 10 --fast    ten trials, as fast as this computer can
+  palpa subclavian --operator novice       watch a simulated novice; read the report's reasons
+  palpa subclavian --trials 10 --fast      ten trials, as fast as this computer can
   palpa palpation --operator expert --fast search a soft phantom for virtual lumps that can be felt
   palpa search --operator expert --fast    find the rough one of three things on a floor that is felt, not seen
   palpa replay out/.../session.palpa       run a recorded session again: same forces, same score

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -101,12 +102,26 @@ void needsPath(const evidence::RecordedSession& session, const std::string& file
                      "Choose a session of palpa subclavian");
 }
 
+/// Whoever filled the sheet in, as its first line says: "# rater: R1"; else as was asked.
+std::string raterOf(const TrialReportOptions& o) {
+  constexpr std::string_view kSays = "# rater: ";
+  if (o.answers.empty()) return o.rater;
+  const std::string sheet = evidence::textOf(o.answers);
+  if (!sheet.starts_with(kSays)) return o.rater;
+  const std::string said = sheet.substr(kSays.size(), sheet.find_first_of("\r\n") - kSays.size());
+  if (!o.rater.empty() && o.rater != said)
+    throw UsageError("filled in this sheet, not " + o.rater, "rater " + said,
+                     "Leave --rater out, or give another sheet");
+  return said;
+}
+
 /// A trial with its verdict, and what its sheet says of the session.
 struct JudgedTrial {
   evidence::RatingForms forms;
   FoundTrial found;
   competence::Verdict verdict;
   report::SessionPage session;
+  std::string rater;
 };
 
 std::unique_ptr<JudgedTrial> judge(const TrialReportOptions& o) {
@@ -117,7 +132,8 @@ std::unique_ptr<JudgedTrial> judge(const TrialReportOptions& o) {
       std::make_unique<JudgedTrial>(JudgedTrial{evidence::readForms(o.checklist, o.global),
                                                 findTrial(session, o.trial, file),
                                                 {},
-                                                evidence::whatWasNoted(session.reader())});
+                                                evidence::whatWasNoted(session.reader()),
+                                                raterOf(o)});
   const record::SessionInfo& info = session.reader().info();
   judged->verdict = evidence::verdictOf(judged->found.assessment, judged->forms,
                                         answersFor(o, judged->forms, info.uuid),
@@ -133,6 +149,8 @@ std::unique_ptr<JudgedTrial> judge(const TrialReportOptions& o) {
       {"Software", info.software, ""},
       {"Judged by", std::string("palpa ") + PALPA_VERSION, judged->forms.checklist.title},
       {"Session", info.uuid, ""}};
+  if (!judged->rater.empty()) page.station.push_back({"Rater", judged->rater, ""});
+  std::erase_if(page.remarks, [&](const report::Remark& r) { return r.trial != o.trial; });
   return judged;
 }
 
@@ -176,7 +194,7 @@ void certify(const TrialReportOptions& o) {
                  {"Held", page.when},
                  {"What", "one trial in assessment (" + trial + "), every aid off"},
                  {"On", "a simulator with a phantom patient"},
-                 {"Judged by", "simulator and rater " + o.rater}};
+                 {"Judged by", "simulator and rater " + judged->rater}};
   sheet.judged = {std::to_string(v.score.done) + " of " +
                       std::to_string(v.score.done + v.score.not_done) +
                       " items of the checklist were done; " + percentWords(v.standard) +
@@ -189,7 +207,7 @@ void certify(const TrialReportOptions& o) {
   sheet.limits = {competence::whatCannotBeCertified(1),
                   "It was done on a simulator: no study of this program has shown that who passes "
                   "here does better on patients."};
-  sheet.made_by = std::string("palpa ") + PALPA_VERSION + ", session " + page.station.back().value;
+  sheet.made_by = std::string("palpa ") + PALPA_VERSION + ", session " + page.station[2].value;
   report::writeCertificate(sheet, o.out);
   std::printf("Written: %s\n", o.out.c_str());
 }

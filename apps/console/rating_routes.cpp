@@ -64,70 +64,87 @@ std::map<std::string, std::string> valuesIn(const json& body) {
   return values;
 }
 
+/// What one rater marks of one trial.
 struct RatedTrial {
   std::string id;  ///< of the session
   fs::path folder;
-  std::string number;
+  std::string number, rater;
 
-  fs::path sheet() const { return folder / ("rating-" + number + ".csv"); }
-  std::string exam() const { return "exam-" + number + ".html"; }
-  std::string certificate() const { return "certificate-" + number + ".pdf"; }
+  std::string stem() const { return number + '-' + rater; }
+  fs::path sheet() const { return folder / ("rating-" + stem() + ".csv"); }
 };
 
+/// What the commands make of a sheet.
+struct RatedPage {
+  const char* what;                   ///< "trial", as `palpa report` has it
+  const char *title, *stem, *ending;  ///< of its file
+};
+constexpr RatedPage kPages[] = {{"trial", "Verdict on a trial", "exam-", ".html"},
+                                {"certificate", "Certificate", "certificate-", ".pdf"}};
+
 RatedTrial trialOf(Console& c, const httplib::Request& request) {
-  const std::string number = request.matches[2];
-  if (number.size() > 4 || std::stoi(number) < 1 || std::stoi(number) > kMostTrials)
+  const std::string number = request.matches[2], rater = request.matches[3];
+  if (std::stoi(number) < 1 || std::stoi(number) > kMostTrials)
     throw UsageError("is no number of a trial", number, "Choose one from the list");
-  return {request.matches[1], c.sessions.folder(request.matches[1]), number};
-}
-
-constexpr char kRater[] = "# rater: ";
-
-/// The sheet as `palpa report trial --answers` reads it; who filled it in stands in a remark.
-void keep(const RatedTrial& trial, const json& body) {
-  const std::string rater = body.value("rater", json()).is_string() ? body["rater"] : json("");
   if (const std::string why = record::whyNoPseudonym(rater); !why.empty())
     throw UsageError(why, "the rater's pseudonym", "Use letters, digits, - and _");
-  std::string sheet = kRater + rater + "\nitem,value\n";
+  return {request.matches[1], c.sessions.folder(request.matches[1]), number, rater};
+}
+
+/// The sheet as `palpa report trial --answers` reads it. What was made of the one before goes: a
+/// pass must not outlive the marks that earned it.
+void keep(Console& c, const RatedTrial& trial, const json& body) {
+  std::string sheet = "# rater: " + trial.rater + "\nitem,value\n";
   for (const auto& [id, value] : valuesIn(body)) sheet += id + ',' + value + '\n';
+  if (readWhole(trial.sheet()).value_or("") == sheet) return;
   writeWhole(trial.sheet(), sheet);
+  std::error_code none;
+  for (const RatedPage& page : kPages)
+    fs::remove(c.sessions.results(trial.id) / (page.stem + trial.stem() + page.ending), none);
 }
 
 json kept(const RatedTrial& trial) {
   const std::string sheet = readWhole(trial.sheet()).value_or("");
-  json told{{"rater", ""}, {"values", json::object()}};
-  std::size_t at = 0;
-  while (at < sheet.size()) {
-    const std::size_t end = std::min(sheet.find('\n', at), sheet.size());
+  json values = json::object();
+  std::size_t end = 0;
+  for (std::size_t at = 0; at < sheet.size(); at = end + 1) {
+    end = std::min(sheet.find('\n', at), sheet.size());
     const std::string line = sheet.substr(at, end - at);
-    at = end + 1;
     const std::size_t comma = line.find(',');
-    if (line.rfind(kRater, 0) == 0)
-      told["rater"] = line.substr(sizeof(kRater) - 1);
-    else if (comma != std::string::npos && line != "item,value") {
-      const std::string value = line.substr(comma + 1);
-      told["values"][line.substr(0, comma)] =
-          value.size() == 1 ? json(value[0] - '0') : json(value);
-    }
+    if (comma == std::string::npos || line == "item,value") continue;
+    const std::string value = line.substr(comma + 1);
+    values[line.substr(0, comma)] = value.size() == 1 ? json(value[0] - '0') : json(value);
   }
-  return told;
+  return {{"rater", trial.rater}, {"values", values}};
 }
 
-/// The page of the verdict, made by the command that judges; anew for every other sheet.
-json verdictOf(Console& c, const RatedTrial& trial, const std::string& what) {
+/// Into the records, too, where the trial is in them; else whoever needs it there enters it later.
+void enterIntoRecords(Console& c, const RatedTrial& trial, const fs::path& results,
+                      const std::string& sheet_sha256) {
+  if (c.sessions.one(trial.id).value("trainee", "").empty()) return;
+  c.jobs.ask({"enter " + trial.id + ' ' + trial.stem() + ' ' + sheet_sha256,
+              "Rating into the records",
+              {"rate", "enter", "--session", results.string(), "--trial", trial.number, "--rater",
+               trial.rater, "--answers", trial.sheet().string(), "--records", c.place.records},
+              "",
+              {}});
+}
+
+/// Made by the command that judges; anew once the sheet is another.
+json madeOf(Console& c, const RatedTrial& trial, const RatedPage& page) {
   const fs::path results = c.sessions.shown(trial.id);
-  const bool rated = fs::exists(trial.sheet());
-  const std::string sheet = readWhole(trial.sheet()).value_or(""),
-                    name = what == "certificate" ? trial.certificate() : trial.exam();
-  JobRequest request{what + " " + trial.id + " " + trial.number + " " + sha256(sheet),
-                     what == "certificate" ? "Certificate" : "Verdict on a trial",
-                     {"report", what == "certificate" ? "certificate" : "trial", results.string(),
-                      "--trial", trial.number, "--out", (results / name).string()},
-                     "",
+  const std::string sheet = sha256(readWhole(trial.sheet()).value_or("")),
+                    name = page.stem + trial.stem() + page.ending;
+  JobRequest request{std::string(page.what) + ' ' + trial.id + ' ' + trial.stem() + ' ' + sheet,
+                     page.title,
+                     {"report", page.what, results.string(), "--trial", trial.number, "--out",
+                      (results / name).string()},
+                     (results / name).string(),
                      {}};
-  if (rated)
-    request.arguments.insert(request.arguments.end(), {"--answers", trial.sheet().string(),
-                                                       "--rater", kept(trial)["rater"]});
+  if (fs::exists(trial.sheet())) {
+    request.arguments.insert(request.arguments.end(), {"--answers", trial.sheet().string()});
+    enterIntoRecords(c, trial, results, sheet);
+  }
   json told = pageOf(c.jobs.ask(std::move(request)));
   told["page"] = told["state"] == "done" ? "/api/sessions/" + trial.id + "/file/" + name : "";
   return told;
@@ -138,19 +155,20 @@ json verdictOf(Console& c, const RatedTrial& trial, const std::string& what) {
 void addRatingRoutes(WebServer& server, Console& c) {
   server.Get("/api/forms",
              [](const httplib::Request&, httplib::Response& r) { answer(r, forms()); });
-  constexpr const char* kRating = R"(/api/sessions/([A-Za-z0-9_-]{1,64})/ratings/([0-9]{1,4}))";
-  server.Get(kRating, [&c](const httplib::Request& q, httplib::Response& r) {
+  const std::string rating =
+      R"(/api/sessions/([A-Za-z0-9_-]{1,64})/ratings/([0-9]{1,4})/([A-Za-z0-9_-]{1,64}))";
+  server.Get(rating, [&c](const httplib::Request& q, httplib::Response& r) {
     answer(r, kept(trialOf(c, q)));
   });
-  server.Post(kRating, [&c](const httplib::Request& q, httplib::Response& r) {
+  server.Post(rating, [&c](const httplib::Request& q, httplib::Response& r) {
     const RatedTrial trial = trialOf(c, q);
-    keep(trial, bodyOf(q));
+    keep(c, trial, bodyOf(q));
     answer(r, kept(trial));
   });
-  for (const char* what : {"verdict", "certificate"})
-    server.Get(std::string(kRating) + "/" + what,
-               [&c, what](const httplib::Request& q, httplib::Response& r) {
-                 answer(r, verdictOf(c, trialOf(c, q), what));
+  for (const RatedPage& page : kPages)
+    server.Get(rating + "/" + page.what,
+               [&c, &page](const httplib::Request& q, httplib::Response& r) {
+                 answer(r, madeOf(c, trialOf(c, q), page));
                });
 }
 

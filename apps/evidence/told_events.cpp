@@ -61,14 +61,16 @@ report::SessionPage whatWasNoted(const record::SessionReader& session) {
   const auto trials = session.trials();
   for (const runtime::Event& event : session.events()) {
     if (!event.is(EventKind::note)) continue;
+    const std::int64_t then_ns = noted(event);
     const auto trial = std::find_if(trials.begin(), trials.end(), [&](const auto& one) {
-      return one.header.trial == event.trial;
+      return one.header.t_ns <= then_ns && !one.isOver(then_ns);
     });
     if (trial == trials.end())
       page.remarks.push_back({0, 0, event.text});
     else
-      page.remarks.push_back(
-          {event.trial, 1e-9 * static_cast<double>(noted(event) - trial->header.t_ns), event.text});
+      page.remarks.push_back({trial->header.trial,
+                              1e-9 * static_cast<double>(then_ns - trial->header.t_ns),
+                              event.text});
   }
   return page;
 }

@@ -191,7 +191,9 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
     stage.watch = [this](const scene::SceneState& state, const trial::TrialStatus& status,
                          std::int64_t now_ns) { publish(state, status, now_ns); };
   if (!window_) return stage;
-  stage.keys = trial::keysOf(world_.engine, heldBy(devices_), options_.left_handed);
+  stage.keys = trial::keysOf({world_.engine, heldBy(devices_), options_.left_handed,
+                              stage.shown.skin == presentation::SkinLook::free,
+                              stage.shown.views == presentation::FixedViews::one});
   stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
     trial::handleKeys(input, channels_, bus_.stop);
     if (PointingHand* hand = devices_.pointing())

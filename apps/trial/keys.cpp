@@ -43,8 +43,7 @@ std::vector<KeyHelp> movedBy(HeldBy held, bool left_handed) {
       return {{"drag", "the needle over the skin"},
               {"wheel", "the needle along itself, in and out"},
               {"arrows", "turn the needle about its entry"},
-              {left_handed ? "., comma" : "Z, X", "draw the plunger, push it"},
-              {"T", "the skin: clear, solid, gone"}};
+              {left_handed ? "., comma" : "Z, X", "draw the plunger, push it"}};
     case HeldBy::mouse_finger:
       return {{"mouse", "moves the finger; hold the left button to press"}};
     case HeldBy::device:
@@ -94,16 +93,18 @@ void handleKeys(const scene::ViewInput& input, Channels& channels, runtime::Stop
   }
 }
 
-std::vector<KeyHelp> keysOf(Engine engine, HeldBy held, bool left_handed) {
-  std::vector<KeyHelp> all = movedBy(held, left_handed);
-  append(all, saidIn(engine));
+std::vector<KeyHelp> keysOf(const KeysInUse& use) {
+  std::vector<KeyHelp> all = movedBy(use.held, use.left_handed);
+  append(all, saidIn(use.engine));
+  if (use.free_skin) all.push_back({"T", "the skin: clear, solid, gone"});
+  if (use.one_fixed_view) all.push_back({"V", "the next fixed view"});
   append(all, ofEverySession());
   return all;
 }
 
 std::string keysText(Engine engine) {
   std::string text;
-  for (const KeyHelp& one : keysOf(engine, HeldBy::device))
+  for (const KeyHelp& one : keysOf({.engine = engine, .free_skin = true, .one_fixed_view = true}))
     text += (text.empty() ? "Keys: " : "; ") + one.key + ": " + one.words;
   return text + "; ?: shows these in the window";
 }

@@ -18,8 +18,16 @@ void handleKeys(const scene::ViewInput& input, Channels& channels, runtime::Stop
 /// What moves the tool, beside these keys.
 enum class HeldBy { device, mouse_needle, mouse_finger };
 
+/// Which keys there are besides those of every session.
+struct KeysInUse {
+  training::Engine engine = training::Engine::needle;
+  HeldBy held = HeldBy::device;
+  bool left_handed = false;
+  bool free_skin = false;       ///< its look may be changed
+  bool one_fixed_view = false;  ///< of several
+};
 /// All keys of a session with what they do, as the window shows them: what the trainee needs first.
-std::vector<scene::KeyHelp> keysOf(training::Engine engine, HeldBy held, bool left_handed = false);
+std::vector<scene::KeyHelp> keysOf(const KeysInUse& use);
 /// The same as one line of a command's help: "Keys: Enter starts or continues, ...".
 std::string keysText(training::Engine engine);
 

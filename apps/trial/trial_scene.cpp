@@ -151,6 +151,9 @@ void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std:
     say(static_cast<char>(std::toupper(static_cast<unsigned char>(camera.front()))) +
             camera.substr(1),
         false);
+  // How the last trial ended stays, and so does what is to be done then.
+  if (status.state == TrialState::ended && !hud->notice.empty() && !status.can_do.empty())
+    hud->notice += (hud->notice.ends_with('.') ? " " : ". ") + status.can_do;
 }
 
 namespace {
@@ -335,7 +338,10 @@ void TrialScene::keepPictures() {
         camera_->pose ? "Registered on " + source : "No board found in " + source});
 }
 
+/// Evidence: without what was said to whoever sits before the window.
 void TrialScene::save(const std::string& name, const PictureRequest& moment) {
+  state_.help.clear();
+  state_.hud.can_do.clear();
   render();
   const std::filesystem::path file = stage_.folder / name;
   writer_.write(file, stage_.view->capture());

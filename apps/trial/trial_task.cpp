@@ -106,7 +106,6 @@ void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_
                                                outcome == Outcome::voided ? "" : end.scores_json});
   status_.state = TrialState::ended;
   status_.notice = endNotice(status_.role, outcome, end.result);
-  if (stays_ && status_.trial >= status_.trials) status_.notice += ". Enter closes";
   since_ns_ = now_ns;
 }
 
@@ -305,6 +304,8 @@ void TrialTask::picture(const std::string& label, const std::string& caption) {
 /// Where a notice stands it says so itself, and this is not shown.
 std::string TrialTask::canDo() const {
   if (lead_.automatic) return "";
+  if (status_.state == TrialState::ended)
+    return stays_ && status_.trial >= status_.trials ? "Enter closes" : "";
   if (status_.state == TrialState::paused) return "Enter continues, A ends the trial, ? shows keys";
   if (status_.state != TrialState::running) return "? shows keys";
   const std::string own = doing();

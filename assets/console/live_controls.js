@@ -140,8 +140,11 @@ export class LiveControls {
       Number(status.trials) > 1
         ? `Start trial ${status.trial} of ${status.trials}`
         : "Start the trial";
-    say(this.go, state === "running" ? "Pause" : state === "paused" ? "Continue" : next);
-    this.#may(this.go, !stopped && ["waiting", "running", "paused"].includes(state));
+    // The last trial's result stands at the station until somebody closes it.
+    const last = state === "ended" && Number(status.trial) >= Number(status.trials);
+    const words = { running: "Pause", paused: "Continue", ended: last ? "Close" : next };
+    say(this.go, words[state] || next);
+    this.#may(this.go, !stopped && (last || ["waiting", "running", "paused"].includes(state)));
     this.#may(this.abort, on);
     this.#may(this.void, on);
     this.#may(this.leave, state !== "finished");

@@ -44,6 +44,7 @@ export class LiveEvents {
       id: "note-text",
       maxlength: "300",
       autocomplete: "off",
+      "aria-describedby": "note-hint",
     });
     this.save = h("button", { type: "submit", class: "primary" }, "Save the note");
     this.said = h("div", { class: "said" });
@@ -63,6 +64,7 @@ export class LiveEvents {
       },
       this.label,
       this.text,
+      h("p", { class: "hint", id: "note-hint" }, "It stands on the session's report."),
       this.said,
       h(
         "div",

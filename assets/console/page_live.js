@@ -154,12 +154,13 @@ export async function show({ root, life, params: [id], open }) {
   );
   const marks = h("div", {});
   root.append(marks);
-  let rated = 0; // the trial whose form stands there
-  const rate = async (trial) => {
-    if (!isRated(session) || !(trial > rated)) return;
-    rated = trial;
-    const form = await ratingForm(life, id, trial, false);
-    if (!life.over && rated === trial) put(marks, form);
+  const rated = new Set(); // trials whose form is there; that of the one before stays
+  const rate = (trial) => {
+    if (!isRated(session) || !(trial > 0) || rated.has(trial)) return;
+    rated.add(trial);
+    ratingForm(life, id, trial, false)
+      .then((form) => marks.append(form))
+      .catch(() => rated.delete(trial)); // with the next word of the session
   };
   const moving = session.blind ? { again() {}, stop() {} } : followPicture(life, id, view);
   life.atEnd(
@@ -196,7 +197,7 @@ export async function show({ root, life, params: [id], open }) {
       alarmShown = cry;
       put(alarm, cry ? notice("stop", cry) : null);
     }
-    rate(Number(s.trial)).catch((error) => put(marks, notice("bad", error.message)));
+    rate(Number(s.trial));
     if (Number(s.trial) > curves.trial) curves.clear(Number(s.trial));
     controls.show(s);
     figure.show(s);

@@ -101,17 +101,24 @@ function pictures(session, files) {
   ];
 }
 
-/** What a rater marked of each trial that counts, and the verdict. */
-async function examined(life, id, results) {
+/** What a rater marks of each trial that counts, and the verdict; filled in when it is there. */
+function examined(life, id, results) {
   const counting = results.filter((r) => r.outcome !== "void");
-  const cards = await Promise.all(
-    counting.map(async (r) => {
-      const form = await ratingForm(life, id, r.number, true);
-      return counting.length === 1
-        ? form
-        : h("details", {}, h("summary", {}, `Trial ${r.number}`), form);
-    }),
-  );
+  const formInto = (place, number) =>
+    ratingForm(life, id, number, true)
+      .then((form) => put(place, form))
+      .catch((error) => put(place, notice("bad", error.message)));
+  const cards = counting.map((r) => {
+    const place = h("div", {});
+    if (counting.length === 1) {
+      formInto(place, r.number);
+      return place;
+    }
+    const ontoggle = (e) => {
+      if (e.target.open && !place.firstChild) formInto(place, r.number);
+    };
+    return h("details", { ontoggle }, h("summary", {}, `Trial ${r.number}`), place);
+  });
   return cards.length ? [h("h2", {}, "Examination"), ...cards] : [];
 }
 
@@ -202,7 +209,7 @@ export async function show({ root, life, params: [id], open }) {
     );
     return;
   }
-  if (isRated(session) && results.length) root.append(...(await examined(life, id, results)));
+  if (isRated(session) && results.length) root.append(...examined(life, id, results));
   const more = pictures(session, files);
   if (more) root.append(...more);
   root.append(

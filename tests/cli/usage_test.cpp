@@ -24,6 +24,15 @@ void expectWrongUsage(const Arguments& arguments, const std::string& word) {
   EXPECT_TRUE(here.files().empty()) << here.files().front();
 }
 
+/// Whoever learnt the command of before is not left alone.
+TEST(Usage, TheNameOfBeforeWorksAndNamesTheNewOne) {
+  const Folder here;
+  const Outcome old = palpa({"paracentesis", "--help"}, here.path());
+  EXPECT_EQ(old.exit_code, 0);
+  EXPECT_EQ(old.err, "palpa paracentesis is called palpa subclavian now\n");
+  EXPECT_EQ(old.out, palpa({"subclavian", "--help"}, here.path()).out);
+}
+
 TEST(Usage, WithoutArgumentsItSaysWhatCanBeDone) {
   const Folder here;
   const Outcome outcome = palpa({}, here.path());

@@ -96,26 +96,28 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Option",
                 {"subclavian", "--opeartor", "expert"},
                 "palpa subclavian has no option --opeartor; did you mean --operator? See: palpa "
-                "paracentesis --help"},
+                "subclavian --help"},
         Mistake{"OneDash",
                 {"subclavian", "-seed", "3"},
                 "palpa subclavian has no option -seed; did you mean --seed? See: palpa "
-                "paracentesis --help"},
+                "subclavian --help"},
         Mistake{"NoDash",
                 {"subclavian", "fast"},
                 "palpa subclavian takes no word 'fast'; did you mean --fast? See: palpa "
-                "paracentesis --help"},
+                "subclavian --help"},
         Mistake{"TooEarly",
                 {"--seed", "3", "subclavian"},
                 "--seed stands before the command it belongs to; write: palpa subclavian --seed. "
                 "See: palpa subclavian --help"},
         Mistake{"Report",
                 {"report"},
-                "palpa report needs to know what to do: cohort, trainee or trial. See: palpa "
+                "palpa report needs to know what to do: certificate, cohort, trainee or trial. "
+                "See: palpa "
                 "report --help"},
         Mistake{"ReportTrail",
                 {"report", "trail", "A"},
-                "palpa report has no command 'trail'; did you mean trial? There are cohort, "
+                "palpa report has no command 'trail'; did you mean trial? There are certificate, "
+                "cohort, "
                 "trainee and trial. See: palpa report --help"},
         Mistake{"BoardPaint",
                 {"board", "pant"},
@@ -151,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Needs",
                 {"subclavian", "--igtl-listen", "0.0.0.0"},
                 "--igtl-listen goes only with --igtl PORT: add that, or leave it out. See: palpa "
-                "paracentesis --help"},
+                "subclavian --help"},
         Mistake{"Excludes",
                 {"patient", "build", "--phantom", "breast", "--sex", "f"},
                 "--sex and --phantom do not go together: leave one of them out. See: palpa patient "
@@ -159,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Missing",
                 {"subclavian", "--station", "no/such/thing"},
                 "--station needs a file that is there, not 'no/such/thing'. See: palpa "
-                "paracentesis --help"},
+                "subclavian --help"},
         Mistake{"Pseudonym",
                 {"subclavian", "--trainee", "Jane Doe"},
                 "--trainee: a pseudonym has 1 to 32 letters, digits, - or _, and begins with a "

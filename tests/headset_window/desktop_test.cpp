@@ -19,13 +19,12 @@ struct Ended {
 Ended interruptedAfter(int layers, const std::string& begun, const std::string& arguments,
                        const test::TestXr& xr) {
   const std::string folder = xr.folder().string();
-  const std::string command = std::string(PALPA_PROGRAM) +
-                              " paracentesis --display openxr --operator person --quiet --out " +
-                              folder + "/out " + arguments + " >/dev/null 2>" + folder +
-                              "/said.txt & program=$!; " + "for i in $(seq 1200); do [ -s " +
-                              folder + "/out/" + begun + " ] && [ $(cat " + folder +
-                              "/layers 2>/dev/null | wc -c) -ge " + std::to_string(layers) +
-                              " ] && break; sleep 0.1; done; kill -TERM $program; wait $program";
+  const std::string command =
+      std::string(PALPA_PROGRAM) + " subclavian --display openxr --operator person --quiet --out " +
+      folder + "/out " + arguments + " >/dev/null 2>" + folder + "/said.txt & program=$!; " +
+      "for i in $(seq 1200); do [ -s " + folder + "/out/" + begun + " ] && [ $(cat " + folder +
+      "/layers 2>/dev/null | wc -c) -ge " + std::to_string(layers) +
+      " ] && break; sleep 0.1; done; kill -TERM $program; wait $program";
   Ended run;
   run.code = std::system(command.c_str());
   run.begun = std::filesystem::exists(xr.folder() / "out" / begun);

@@ -95,7 +95,7 @@ try() {
   expect "completion of \"$*\" offers \"$wanted\"" grep -qxF -- "$wanted" offered.txt
 }
 mkdir -p "results of May" && touch "my station.json"
-try paracentesis palpa para
+try subclavian palpa sub
 try "export" palpa records ex
 try --format palpa records export --f
 try "json" palpa records export --format j

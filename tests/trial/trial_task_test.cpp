@@ -17,6 +17,7 @@ class PlainTask final : public TrialTask {
   using TrialTask::TrialTask;
   TrialState state() const { return status().state; }
   const std::string& notice() const { return status().notice; }
+  const std::string& canBeDone() const { return status().can_do; }
   void endNow(std::int64_t now_ns) { endTrial(training::Outcome::voided, "", now_ns); }
 
  protected:
@@ -100,13 +101,48 @@ struct Rehearsing : testing::Test {
   std::vector<runtime::Event> events;
 };
 
+/// A person reads how the last trial ended; between trials nobody waits for him.
+TEST_F(Rehearsing, TheLastResultStaysUntilItIsClosed) {
+  task.stay();
+  run(210);
+  for (int trial = 1; trial <= 2; ++trial) {
+    EXPECT_EQ(task.state(), TrialState::waiting) << trial;
+    channels.requests_to_task.push({UserCommand::start, ""});
+    step();
+    EXPECT_EQ(task.state(), TrialState::running) << trial;
+    EXPECT_EQ(task.canBeDone(), "P pauses, ? shows keys");
+    task.endNow(now);
+    run(400);
+  }
+  EXPECT_EQ(task.state(), TrialState::ended);
+  EXPECT_EQ(task.canBeDone(), "Enter closes");
+  channels.console_to_task.push({UserCommand::start, ""});
+  run(2);
+  EXPECT_EQ(task.state(), TrialState::finished);
+}
+
+TEST_F(Rehearsing, WhoGoesAwayHoldsTheStationUpForAMinute) {
+  task.stay();
+  run(210);
+  for (int trial = 1; trial <= 2; ++trial) {
+    channels.requests_to_task.push({UserCommand::start, ""});
+    step();
+    task.endNow(now);
+    run(400);
+  }
+  run(5500);
+  EXPECT_EQ(task.state(), TrialState::ended);
+  run(150);
+  EXPECT_EQ(task.state(), TrialState::finished);
+}
+
 TEST_F(Rehearsing, TakesTwoSecondsAndSaysNothingWhereTheComputerKeepsUp) {
   run(150);
   EXPECT_EQ(task.state(), TrialState::checking);
   EXPECT_EQ(task.notice(), "Wait: this computer is checked for 2 s");
   run(60);
   EXPECT_EQ(task.state(), TrialState::waiting);
-  EXPECT_EQ(task.notice(), "Press Enter to start");
+  EXPECT_EQ(task.notice(), "Press Enter to start. ? shows keys");
   EXPECT_TRUE(of(runtime::EventKind::computer).empty());
 }
 

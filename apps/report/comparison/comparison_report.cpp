@@ -189,7 +189,7 @@ void writeComparisonPage(Html& html, const ComparisonReport& report) {
         writeAnswers(html, report);
       if (!report.pictures.empty()) {
         const auto section = html.in("section", {{"class", "card"}});
-        writePictures(html, report.pictures);
+        writePictures(html, report.pictures, PicturesOf::session);
       }
       writeAppendix(html, report);
     }

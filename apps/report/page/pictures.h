@@ -19,13 +19,16 @@ struct Picture {
 /// words 1 MB.
 inline constexpr std::size_t kCarried = 560'000;
 
-/// The pictures with caption and moment, embedded as WebP. These of one trial take at most a
-/// quarter of what is left of `carried`: they are as large as fits, and where even the smallest do
-/// not fit they are shown from their files, which must lie beside the page, and this is said. It
-/// depends on what stands before alone: a session's report and what `palpa finish` makes of it show
-/// the same trials' pictures in the same way. One that cannot be read (or is no PNG) is named in
-/// its place: a lost picture must not cost the report.
+/// Whose pictures they are: those of a trial leave room for further ones.
+enum class PicturesOf { trial, session };
+
+/// The pictures with caption and moment, embedded as WebP. Those of a trial take at most a quarter
+/// of what is left of kCarried, those of a session all of it: they are as large as fits, and where
+/// even the smallest do not fit, the page names their files. It depends on what stands before
+/// alone: a session's report and what `palpa finish` makes of it show the same trials' pictures in
+/// the same way. One that cannot be read (or is no PNG) is named in its place: a lost picture must
+/// not cost the report.
 void writePictures(Html& html, const std::vector<Picture>& pictures,
-                   std::size_t carried = kCarried);
+                   PicturesOf whose = PicturesOf::trial);
 
 }  // namespace palpa::report

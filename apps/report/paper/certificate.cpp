@@ -11,9 +11,9 @@
 namespace palpa::report {
 namespace {
 
-constexpr double kPoints = 72 / 25.4;                                // a mm
-constexpr double kWide = 210, kHigh = 297, kEdge = 24, kFacts = 52;  // mm
-constexpr double kLine = 1.45;                                       // of the size of the type
+constexpr double kPointsOfMm = 72 / 25.4;                                             // a mm
+constexpr double kPaperWide = 210, kPaperHigh = 297, kPaperEdge = 24, kFactsAt = 52;  // mm
+constexpr double kLineHigh = 1.45;  // of the size of the type
 
 /// Words on the sheet, from above; lengths in mm.
 class CertificateSheet {
@@ -23,18 +23,18 @@ class CertificateSheet {
   void skip(double mm) { y_ += mm; }
   void rule() {
     cairo_set_source_rgb(cairo_, 0.75, 0.78, 0.8);
-    cairo_rectangle(cairo_, kEdge, y_, kWide - 2 * kEdge, 0.3);
+    cairo_rectangle(cairo_, kPaperEdge, y_, kPaperWide - 2 * kPaperEdge, 0.3);
     cairo_fill(cairo_);
     y_ += 5;
   }
   /// Broken between words where the line is full.
-  void words(const std::string& text, double size, bool bold, double left = kEdge) {
+  void words(const std::string& text, double size, bool bold, double left = kPaperEdge) {
     use(size, bold);
     std::istringstream in(text);
     std::string line;
     for (std::string word; in >> word;) {
       const std::string longer = line.empty() ? word : line + ' ' + word;
-      if (!line.empty() && widthOf(longer) > kWide - kEdge - left) {
+      if (!line.empty() && widthOf(longer) > kPaperWide - kPaperEdge - left) {
         put(line, size, left);
         line = word;
       } else {
@@ -47,11 +47,11 @@ class CertificateSheet {
     const double y = y_;
     words(name, 4, false);
     y_ = y;
-    words(value, 4, true, kEdge + kFacts);
+    words(value, 4, true, kPaperEdge + kFactsAt);
     y_ += 1;
   }
   void foot(const std::string& text) {
-    y_ = kHigh - kEdge;
+    y_ = kPaperHigh - kPaperEdge;
     words(text, 3, false);
   }
 
@@ -68,13 +68,13 @@ class CertificateSheet {
     return extents.x_advance;
   }
   void put(const std::string& line, double size, double left) {
-    y_ += size * kLine;
+    y_ += size * kLineHigh;
     cairo_move_to(cairo_, left, y_);
     cairo_show_text(cairo_, line.c_str());
   }
 
   cairo_t* cairo_;
-  double y_ = kEdge;
+  double y_ = kPaperEdge;
 };
 
 void drawCertificate(cairo_t* cairo, const Certificate& c) {
@@ -118,13 +118,14 @@ void writeCertificate(const Certificate& certificate, const std::filesystem::pat
   std::string bytes;
   {
     const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-        cairo_pdf_surface_create_for_stream(keepBytes, &bytes, kWide * kPoints, kHigh * kPoints),
+        cairo_pdf_surface_create_for_stream(keepBytes, &bytes, kPaperWide * kPointsOfMm,
+                                            kPaperHigh * kPointsOfMm),
         cairo_surface_destroy);
     const std::string title = "Certificate: " + certificate.task;
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
     const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(cairo_create(surface.get()),
                                                                    cairo_destroy);
-    cairo_scale(cairo.get(), kPoints, kPoints);
+    cairo_scale(cairo.get(), kPointsOfMm, kPointsOfMm);
     drawCertificate(cairo.get(), certificate);
     cairo_show_page(cairo.get());
     cairo_surface_finish(surface.get());

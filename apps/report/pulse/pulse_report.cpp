@@ -133,7 +133,7 @@ void writePulsePage(Html& html, const PulseReport& report) {
       if (!trials.empty()) writePulseChecklist(html, report, trials);
       if (!report.pictures.empty()) {
         const auto section = html.in("section", {{"class", "card"}});
-        writePictures(html, report.pictures);
+        writePictures(html, report.pictures, PicturesOf::session);
       }
       writeAppendix(html, report);
     }

@@ -54,7 +54,7 @@ void writeSearchMain(Html& html, const SearchReport& report) {
   if (report.figures) writeSearchFigures(html, *report.figures);
   if (!report.pictures.empty()) {
     const auto section = html.in("section", {{"class", "card"}});
-    writePictures(html, report.pictures);
+    writePictures(html, report.pictures, PicturesOf::session);
   }
   writeAppendix(
       html, report, [] {}, [&] { writeSearchGlossary(html); });

@@ -248,6 +248,8 @@ test(
     const card = page.locator(".rating");
     await card.waitFor();
     await card.getByLabel("Rater").fill("R1");
+    await page.keyboard.press("Tab");
+    await card.locator("fieldset.marks").first().waitFor();
     let clicks = 0;
     const press = async (label) => {
       await label.click();
@@ -257,7 +259,7 @@ test(
       const done = group.locator("label", { hasText: /^done$/ });
       await press((await done.count()) ? done : group.locator("label", { hasText: /^5$/ }));
     }
-    await card.getByText("13 of 13 marks").waitFor();
+    await card.getByText("13 of 13 marks, kept").waitFor();
     await press(card.getByRole("button", { name: "Verdict" }));
     const verdict = page.frameLocator(".rating iframe.report");
     await verdict.getByText(/^(Pass|Fail) \(simulated\)$/).waitFor({ timeout: 120_000 });
@@ -273,7 +275,10 @@ test(
     assert.ok(clicks <= 18, `${clicks} clicks`);
     await e.go("#/station");
     await e.go(`#/results/${sessions[0]}`);
-    await page.locator(".rating").getByText("13 of 13 marks").waitFor(); // kept
+    await page.locator(".rating").getByText("13 of 13 marks, kept").waitFor();
+    await page.locator(".rating").getByLabel("Rater").fill("R2"); // has a sheet of his own
+    await page.keyboard.press("Tab");
+    await page.locator(".rating").getByText("0 of 13 marks").waitFor();
     await e.examine("rated");
     await page.setViewportSize(kDesktop);
   },
