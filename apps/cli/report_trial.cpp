@@ -184,7 +184,8 @@ void certify(const TrialReportOptions& o) {
   if (v.status != competence::Status::passed)
     throw UsageError("was not passed: " + v.reasons.front(), trial,
                      "palpa report trial tells the whole verdict");
-  if (o.rater.empty()) throw UsageError("is not named", "the rater", "Say who rated with --rater");
+  if (judged->rater.empty())
+    throw UsageError("is not named", "the rater", "Say who rated with --rater");
   const assess::TrialAssessment& a = judged->found.assessment;
   const report::SessionPage& page = judged->session;
   report::Certificate sheet;

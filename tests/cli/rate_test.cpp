@@ -85,6 +85,16 @@ TEST(Rate, FromTheFormToTheVerdict) {
         "items of the checklist were done", "4 of 5 on average", "cannot certify anybody",
         "Signature of the rater"})
     EXPECT_TRUE(says(certified, words)) << words << " in\n" << certified;
+  here.file("signed.csv", "# rater: R7\n" + contentOf(here / "one.csv"));
+  ASSERT_EQ(inHere({"report", "certificate", "A", "--answers", "signed.csv", "--out", "s.pdf"},
+                   here, false)
+                .exit_code,
+            0);
+  const Outcome anothers = inHere(
+      {"report", "certificate", "A", "--answers", "signed.csv", "--rater", "R1", "--out", "t.pdf"},
+      here, false);
+  EXPECT_EQ(anothers.exit_code, 2);
+  EXPECT_TRUE(says(anothers.err, "rater R7: filled in this sheet, not R1")) << anothers.err;
   const Outcome refused = inHere(
       {"report", "certificate", "A", "--answers", "other.csv", "--rater", "R2", "--out", "d.pdf"},
       here, false);
