@@ -56,7 +56,7 @@ function oneOf(legend, options, value, chosen) {
         const id = newId("mark-choice");
         return h(
           "span",
-          { class: "mark-choice" },
+          { class: given === kOpen ? "mark-choice open" : "mark-choice" },
           h("input", {
             type: "radio",
             id,
@@ -194,7 +194,11 @@ export async function ratingForm(life, session, number, over) {
     "section",
     { class: "card rating" },
     h("h2", {}, `Rate trial ${number}`),
-    field("Rater", rater, "Your pseudonym: it stands on the verdict. Each rater has an own sheet."),
+    field(
+      "Rater",
+      rater,
+      "Your pseudonym: it stands on the verdict. Each rater has a sheet of their own.",
+    ),
     below,
     said,
     trouble,
