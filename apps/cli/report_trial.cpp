@@ -108,7 +108,7 @@ std::string raterOf(const TrialReportOptions& o) {
   if (o.answers.empty()) return o.rater;
   const std::string sheet = evidence::textOf(o.answers);
   if (!sheet.starts_with(kSays)) return o.rater;
-  const std::string said = sheet.substr(kSays.size(), sheet.find_first_of("\r\n") - kSays.size());
+  std::string said = sheet.substr(kSays.size(), sheet.find_first_of("\r\n") - kSays.size());
   if (!o.rater.empty() && o.rater != said)
     throw UsageError("filled in this sheet, not " + o.rater, "rater " + said,
                      "Leave --rater out, or give another sheet");

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-struct _cairo_surface;
+struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier): Cairo's own name
 
 namespace palpa::report {
 
