@@ -104,6 +104,8 @@ TEST(Page, TreatsNamesAsTextNeverAsMarkup) {
   report.title = report.trainee = report.when = evil;
   report.station = {{evil, evil, evil}};
   report.notes = {{"Software", evil, ""}};
+  report.remarks = {{1, 2, evil}};
+  report.next = {evil};
   for (auto& trial : report.trials) {
     auto& a = trial.assessment;
     a.summary = evil;
@@ -130,6 +132,25 @@ TEST(Page, NeedsNoNetworkAndNoScript) {
        {"http://", "https://", "<script", "<link", "@import", "url(", "<iframe"}) {
     EXPECT_FALSE(contains(page, load)) << load;
   }
+}
+
+/// What a mailed page begins with; how it was done is folded at its end.
+TEST(Page, SaysWhenWhatWasNotedAndWhatToPractise) {
+  SessionReport report = syntheticReport(2);
+  report.when = "30 November 2026, 09:14";
+  report.remarks = {{2, 14.25, "left hand not in the field"}, {0, 0, "a fire drill"}};
+  report.next = {"rest the hand on the patient"};
+  const std::string page = written(report, "noted");
+  EXPECT_EQ(faultOf(page), "");
+  for (const char* words : {"30 November 2026, 09:14", "Noted by the educator", "Trial 2, 14.3 s",
+                            "left hand not in the field", "a fire drill", "Practise next:",
+                            "rest the hand on the patient."})
+    EXPECT_TRUE(contains(page, words)) << words;
+  const std::size_t folded = page.find("<details class=\"card appendix\"");
+  ASSERT_NE(folded, std::string::npos);
+  EXPECT_LT(page.find("Noted by the educator"), page.find("id=\"trial-1\""));
+  EXPECT_LT(folded, page.find("Where this task stands"));
+  EXPECT_FALSE(contains(written(syntheticReport(1), "unnoted"), "Noted by the educator"));
 }
 
 TEST(Page, SameInputGivesTheSameBytes) {
