@@ -21,6 +21,7 @@ export class LiveEvents {
     this.now = now;
     this.notes = new Set();
     this.at_s = NaN;
+    this.began = NaN; // the newest trial, in the session's time
     this.list = h(
       "ol",
       { class: "events" },
@@ -124,8 +125,14 @@ export class LiveEvents {
   #stamp() {
     this.at_s = this.now();
     this.form.hidden = false;
-    say(this.label, `What was seen at ${clock(this.at_s)} of the session (no names)`);
+    const when = this.at_s >= this.began ? `at ${this.#time(this.at_s)}` : "before the first trial";
+    say(this.label, `What was seen ${when} (no names)`);
     this.text.focus();
+  }
+
+  /** As the curves count: since the trial began; before the first one there is no time. */
+  #time(t_s) {
+    return t_s >= this.began ? clock(t_s - this.began) : "before";
   }
 
   #close() {
@@ -166,6 +173,7 @@ export class LiveEvents {
    * stands there already.
    */
   add(message, tone) {
+    if (message.event === "start") this.began = message.t_s;
     if (message.event === "note" || tone === "note") {
       const key = String(message.text || "").replace(/^note:\s*/i, "");
       if (this.notes.has(key)) {
@@ -192,7 +200,7 @@ export class LiveEvents {
         "li",
         { class: `event ${tone}` },
         mark(tone),
-        h("span", { class: "event-time" }, clock(message.t_s)),
+        h("span", { class: "event-time" }, this.#time(message.t_s)),
         h("span", {}, word ? h("strong", {}, `${word}: `) : null, text),
       ),
     );

@@ -143,8 +143,8 @@ TEST(Page, SaysWhenWhatWasNotedAndWhatToPractise) {
   const std::string page = written(report, "noted");
   EXPECT_EQ(faultOf(page), "");
   for (const char* words : {"30 November 2026, 09:14", "Noted by the educator", "Trial 2, 14.3 s",
-                            "left hand not in the field", "a fire drill", "Practise next:",
-                            "rest the hand on the patient."})
+                            "left hand not in the field", "a fire drill",
+                            "Practise next:", "rest the hand on the patient."})
     EXPECT_TRUE(contains(page, words)) << words;
   const std::size_t folded = page.find("<details class=\"card appendix\"");
   ASSERT_NE(folded, std::string::npos);
