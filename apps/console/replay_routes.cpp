@@ -90,6 +90,15 @@ Recorded recorded(Console& c, const std::string& id, int number) {
           "replay " + id + " " + std::to_string(number)};
 }
 
+/// Those of a trial that are there while the rest is being drawn: in their order, each whole.
+int drawnSoFar(const fs::path& pictures) {
+  std::error_code none;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(pictures, none))
+    count += entry.path().extension() == ".jpg";
+  return count;
+}
+
 /// Pictures are drawn once, by the command that draws films.
 void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
   std::error_code none;
@@ -99,6 +108,7 @@ void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
     (*told)["frames"] = pictures.value("pictures", 0);
     (*told)["near"] = nearIn(pictures);
     (*told)["done"] = 1;
+    (*told)["drawn"] = (*told)["frames"];
     return;
   }
   const json state = c.jobs.ask(
@@ -109,6 +119,7 @@ void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
        "",
        {}});
   (*told)["done"] = state["done"].is_number() ? state["done"] : json(0);
+  (*told)["drawn"] = drawnSoFar(trial.pictures);
   if (state["state"] != "failed") return;
   (*told)["ready"] = true;  // there will be none: what stands beside them is all there is
   (*told)["frames"] = 0;

@@ -32,6 +32,9 @@ function view(alt, caption) {
     img,
     node: h("figure", {}, h("div", { class: "view-box" }, word, img), note),
     show(replay) {
+      const some = !replay.ready && replay.drawn > 0;
+      say(note, some ? `${caption}. Drawn so far: ${replay.drawn} pictures` : caption);
+      if (some) return void put(word);
       put(
         word,
         replay.failed

@@ -66,12 +66,14 @@ export class Pictures {
   }
 
   at(t) {
-    if (!this.replay.ready || !(this.replay.frames > 0)) return;
-    this.wanted = Math.min(
-      this.replay.frames - 1,
-      Math.max(0, Math.round(t * (this.replay.fps || 5))),
-    );
+    if (!(this.#there() > 0)) return;
+    this.wanted = Math.min(this.#there() - 1, Math.max(0, Math.round(t * (this.replay.fps || 5))));
     if (!this.busy) this.#load();
+  }
+
+  /** So many are drawn: the first ones, while the rest is under way. */
+  #there() {
+    return this.replay.ready ? this.replay.frames : this.replay.drawn || 0;
   }
 
   async #load() {
@@ -79,7 +81,7 @@ export class Pictures {
     while (this.wanted !== this.shown) {
       const k = this.wanted,
         next = this.#fetched(k);
-      this.#fetched(Math.min(k + 1, this.replay.frames - 1)); // the one after it, for playing
+      this.#fetched(Math.min(k + 1, this.#there() - 1)); // the one after it, for playing
       try {
         await next.decode();
         this.img.src = next.src;

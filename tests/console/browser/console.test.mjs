@@ -293,6 +293,12 @@ test("the replay is scrubbed, an expert beside", { skip, timeout: 500_000 }, asy
     null,
     { timeout: 400_000 },
   );
+  // The first pictures come while the rest is drawn: now all of them are wanted.
+  await page.waitForFunction(
+    () => !document.querySelector("figcaption").textContent.includes("Drawn so far"),
+    null,
+    { timeout: 400_000 },
+  );
   const before = await img.getAttribute("src");
   await page.getByRole("slider").fill("6");
   assert.match(await time.textContent(), /^0:06\.0/);
