@@ -138,7 +138,7 @@ TEST(Page, NeedsNoNetworkAndNoScript) {
 TEST(Page, SaysWhenWhatWasNotedAndWhatToPractise) {
   SessionReport report = syntheticReport(2);
   report.when = "30 November 2026, 09:14";
-  report.remarks = {{2, 14.25, "left hand not in the field"}, {0, 0, "a fire drill"}};
+  report.remarks = {{2, 14.3, "left hand not in the field"}, {0, 0, "a fire drill"}};
   report.next = {"rest the hand on the patient"};
   const std::string page = written(report, "noted");
   EXPECT_EQ(faultOf(page), "");
