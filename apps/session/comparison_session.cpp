@@ -213,11 +213,12 @@ void writeComparisonResults(const ReportHead& head,
   if (!head.page) return;
   const bool rubbed =
       !page.trials.empty() && page.trials[0].property == assess::ComparedProperty::friction;
-  static_cast<report::SessionPage&>(page) = pageOf(
-      head, tail, evidence, rubbed ? Engine::friction : Engine::squeeze,
-      judgedOf(trials, [&](const auto& t) {
-        return JudgedTrial{t.trial.role, t.trial.outcome, assess::comparisonMetrics(t.trial)};
-      }));
+  static_cast<report::SessionPage&>(page) =
+      pageOf(head, tail, evidence, rubbed ? Engine::friction : Engine::squeeze,
+             judgedOf(trials, [&](const auto& t) {
+               return progress::JudgedTrial{t.trial.role, t.trial.outcome,
+                                            assess::comparisonMetrics(t.trial)};
+             }));
   page.too_hard_N = head.too_hard_N;
   page.pictures = picturesOf(tail);
   report::writeComparisonReport(page, folder / "report.html");

@@ -185,10 +185,10 @@ void writeNeedleResults(const ReportHead& head,
   report::writeTrialsCsv(head.user_id, scored, folder / "trials.csv", head.doses);
   if (!head.page) return;
   report::SessionReport page;
-  static_cast<report::SessionPage&>(page) =
-      pageOf(head, tail, evidence, training::Engine::needle, judgedOf(trials, [&](const auto& t) {
-               return JudgedTrial{t.assessment.role, t.assessment.outcome, t.assessment.metrics};
-             }));
+  static_cast<report::SessionPage&>(page) = pageOf(
+      head, tail, evidence, training::Engine::needle, judgedOf(trials, [&](const auto& t) {
+        return progress::JudgedTrial{t.assessment.role, t.assessment.outcome, t.assessment.metrics};
+      }));
   const std::optional<evidence::RatingForms> forms =
       head.assessed ? std::optional(evidence::readForms("", "")) : std::nullopt;
   page.trials = pages(trials, tail.pictures, forms ? &*forms : nullptr);

@@ -315,8 +315,8 @@ void writePalpationResults(const ReportHead& head,
   report::PalpationReport page;
   static_cast<report::SessionPage&>(page) = pageOf(
       head, tail, evidence, training::Engine::palpation, judgedOf(trials, [&](const auto& t) {
-        return JudgedTrial{t.assessment.facts.role, t.assessment.facts.outcome,
-                           assess::palpationMetrics(t.assessment)};
+        return progress::JudgedTrial{t.assessment.facts.role, t.assessment.facts.outcome,
+                                     assess::palpationMetrics(t.assessment)};
       }));
   page.force_note = head.force_note;
   const auto pair = record::SessionReader(evidence).info().pair_config;

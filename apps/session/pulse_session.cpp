@@ -95,10 +95,11 @@ void writePulseResults(const ReportHead& head,
   const std::filesystem::path folder = evidence.parent_path();
   report::writePulseCsv(head.user_id, page.trials, rules, folder / "trials.csv");
   if (!head.page) return;
-  static_cast<report::SessionPage&>(page) = pageOf(
-      head, tail, evidence, training::Engine::pulse, judgedOf(trials, [&](const auto& t) {
-        return JudgedTrial{t.trial.role, t.trial.outcome, assess::pulseMetrics(t.trial, rules)};
-      }));
+  static_cast<report::SessionPage&>(page) =
+      pageOf(head, tail, evidence, training::Engine::pulse, judgedOf(trials, [&](const auto& t) {
+               return progress::JudgedTrial{t.trial.role, t.trial.outcome,
+                                            assess::pulseMetrics(t.trial, rules)};
+             }));
   page.pictures = picturesOf(tail);
   report::writePulseReport(page, folder / "report.html");
 }

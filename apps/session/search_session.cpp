@@ -222,7 +222,7 @@ void writeSearchResults(const ReportHead& head,
   if (!head.page) return;
   static_cast<report::SessionPage&>(page) = pageOf(
       head, tail, session_file, training::Engine::search, judgedOf(trials, [&](const auto& t) {
-        return JudgedTrial{t.trial.role, t.trial.outcome, assess::searchMetrics(t.trial)};
+        return progress::JudgedTrial{t.trial.role, t.trial.outcome, assess::searchMetrics(t.trial)};
       }));
   page.subtasks = head.parts;
   page.pictures = picturesOf(tail);

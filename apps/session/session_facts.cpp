@@ -10,7 +10,6 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/assess/dose_counter.h"
-#include "apps/assess/progress/errors.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/evidence/told_events.h"
 #include "apps/report/page/style.h"
@@ -316,28 +315,9 @@ ReportHead headIn(const record::SessionInfo& info, const std::string& file) {
   return head;
 }
 
-namespace {
-
-std::vector<std::string> nextAfter(training::Engine engine,
-                                   const std::vector<JudgedTrial>& trials) {
-  std::vector<progress::PracticeTrial> practice;
-  for (const JudgedTrial& trial : trials) {
-    progress::PracticeTrial one;
-    one.engine = engine;
-    one.role = trial.role;
-    one.outcome = trial.outcome;
-    for (const metrics::MetricValue& figure : trial.figures)
-      one.figures.set(figure.name, figure.value);
-    if (progress::counts(one)) practice.push_back(std::move(one));
-  }
-  return progress::practiseNext({engine, practice});
-}
-
-}  // namespace
-
 report::SessionPage pageOf(const ReportHead& head, const ReportTail& tail,
                            const std::filesystem::path& evidence, training::Engine engine,
-                           const std::vector<JudgedTrial>& trials) {
+                           const std::vector<progress::JudgedTrial>& trials) {
   report::SessionPage page = evidence::whatWasNoted(record::SessionReader(evidence));
   page.title = head.title;
   page.trainee = head.trainee;
@@ -345,7 +325,7 @@ report::SessionPage pageOf(const ReportHead& head, const ReportTail& tail,
   page.taxonomy = head.taxonomy;
   page.station = head.station;
   page.notes = tail.notes;
-  page.next = nextAfter(engine, trials);
+  page.next = progress::practiseNext(engine, trials);
   return page;
 }
 

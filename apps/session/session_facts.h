@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/assess/metrics/metric_table.h"
+#include "apps/assess/progress/errors.h"
 #include "apps/record/session_file.h"
 #include "apps/report/needle/session_report.h"
 #include "apps/report/palpation/palpation_report.h"
@@ -78,20 +78,14 @@ struct ReportTail {
   std::vector<trial::SavedPicture> pictures;
   std::vector<report::Fact> notes, registration = {};
 };
-/// Of a trial what is asked to say what to practise next.
-struct JudgedTrial {
-  training::Role role = training::Role::none;
-  training::Outcome outcome = training::Outcome::none;
-  std::vector<metrics::MetricValue> figures;
-};
 /// A page's beginning and end, with what was noted in the evidence. Throws Error.
 report::SessionPage pageOf(const ReportHead& head, const ReportTail& tail,
                            const std::filesystem::path& evidence, training::Engine engine,
-                           const std::vector<JudgedTrial>& trials);
+                           const std::vector<progress::JudgedTrial>& trials);
 /// `of` makes each a JudgedTrial.
 template <class Trials, class Of>
-std::vector<JudgedTrial> judgedOf(const Trials& trials, const Of& of) {
-  std::vector<JudgedTrial> all;
+std::vector<progress::JudgedTrial> judgedOf(const Trials& trials, const Of& of) {
+  std::vector<progress::JudgedTrial> all;
   for (const auto& trial : trials) all.push_back(of(trial));
   return all;
 }

@@ -158,10 +158,8 @@ void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std:
 
 namespace {
 
-constexpr std::int64_t
-    kFramePeriod = 33'333'333,
-    kBesideHeadset =
-        100'000'000;  // ns, of the desktop's view: beside a headset it is for whoever looks on
+// ns, of the desktop's view: beside a headset it is for whoever looks on
+constexpr std::int64_t kFramePeriod = 33'333'333, kBesideHeadset = 100'000'000;
 
 scene::Image toImage(const cv::Mat& picture) {
   cv::Mat rgb;

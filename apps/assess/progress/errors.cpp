@@ -141,6 +141,20 @@ std::vector<std::string> practiseNext(const PracticeView& practice) {
                                             : "the same again, with other cases"};
 }
 
+std::vector<std::string> practiseNext(Engine engine, const std::vector<JudgedTrial>& session) {
+  std::vector<PracticeTrial> practice;
+  for (const JudgedTrial& trial : session) {
+    PracticeTrial one;
+    one.engine = engine;
+    one.role = trial.role;
+    one.outcome = trial.outcome;
+    for (const metrics::MetricValue& figure : trial.figures)
+      one.figures.set(figure.name, figure.value);
+    if (counts(one)) practice.push_back(std::move(one));
+  }
+  return practiseNext({engine, practice});
+}
+
 namespace {
 
 /// The usual weights, as published or continuous: those that give the trial's total.
