@@ -132,11 +132,13 @@ void writeFilm(evidence::RecordedShow& recorded, const Cut& cut, const ReplayVie
               counted(film.frames(), "picture").c_str(), film.frames() / o.frames_per_second);
 }
 
-/// Beside the pictures stands what they show: length, rate, and what happened when. It comes last:
-/// with it they are complete.
+/// Beside the pictures stands what they show: first, for it is there at once, where a needle went;
+/// last, so that with it they are complete, length, rate, and what happened when.
 void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
   session::OutputFolder output(o.pictures, "pictures");
   const std::filesystem::path& folder = output.path();
+  if (const nlohmann::json track = recorded.track(); !track.is_null())
+    writeWhole(folder / "track.json", track.dump() + "\n", Lasts::no);
   int count = 0;
   draw(recorded, cut, o, [&](int number, const scene::Image& picture) {
     char name[32];

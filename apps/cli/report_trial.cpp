@@ -122,6 +122,7 @@ struct JudgedTrial {
   competence::Verdict verdict;
   report::SessionPage session;
   std::string rater;
+  std::optional<assess::NeedleViews> views = {};
 };
 
 std::unique_ptr<JudgedTrial> judge(const TrialReportOptions& o) {
@@ -150,6 +151,7 @@ std::unique_ptr<JudgedTrial> judge(const TrialReportOptions& o) {
       {"Judged by", std::string("palpa ") + PALPA_VERSION, judged->forms.checklist.title},
       {"Session", info.uuid, ""}};
   if (!judged->rater.empty()) page.station.push_back({"Rater", judged->rater, ""});
+  judged->views = session.views();
   std::erase_if(page.remarks, [&](const report::Remark& r) { return r.trial != o.trial; });
   return judged;
 }
@@ -165,6 +167,7 @@ void reportTrial(const TrialReportOptions& o) {
   static_cast<report::SessionPage&>(whole) = judged->session;
   whole.title += ", trial " + std::to_string(o.trial);
   whole.trials.push_back(std::move(page));
+  whole.views = judged->views;
   report::writeReport(whole, o.out);
   const competence::Verdict& verdict = judged->verdict;
   std::printf("Trial %d%s: %s%s\n", o.trial, whole.simulated ? " (simulated)" : "",

@@ -103,6 +103,7 @@ int drawnSoFar(const fs::path& pictures) {
 void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
   std::error_code none;
   (*told)["ready"] = fs::exists(trial.pictures / "pictures.json", none);
+  (*told)["track"] = fs::exists(trial.pictures / "track.json", none);
   if ((*told)["ready"]) {
     const json pictures = JsonFile(trial.pictures / "pictures.json").json();
     (*told)["frames"] = pictures.value("pictures", 0);
@@ -187,17 +188,19 @@ void addReplayRoutes(WebServer& server, Console& c) {
       [&c, read](const httplib::Request& q, httplib::Response& r) {
         answer(r, replay(c, *read, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))));
       });
-  server.Get(
-      R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/frame/([0-9]{1,5}))",
-      [&c](const httplib::Request& q, httplib::Response& r) {
-        char name[32];
-        std::snprintf(name, sizeof name, "picture-%05zu.jpg", wholeNumber(q.matches[3], 0));
-        sendFile(
-            r,
-            recorded(c, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))).pictures /
-                name,
-            "image/jpeg");
-      });
+  const auto drawn = [&c](const httplib::Request& q) {
+    return recorded(c, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))).pictures;
+  };
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/track)",
+             [drawn](const httplib::Request& q, httplib::Response& r) {
+               sendFile(r, drawn(q) / "track.json", "application/json");
+             });
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/frame/([0-9]{1,5}))",
+             [drawn](const httplib::Request& q, httplib::Response& r) {
+               char name[32];
+               std::snprintf(name, sizeof name, "picture-%05zu.jpg", wholeNumber(q.matches[3], 0));
+               sendFile(r, drawn(q) / name, "image/jpeg");
+             });
 }
 
 }  // namespace palpa::console

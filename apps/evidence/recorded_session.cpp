@@ -23,8 +23,8 @@
 namespace palpa::evidence {
 namespace {
 
-Pose poseFrom(const nlohmann::json& json) {
-  return unpack(PackedPose{json.at("p_m").get<Packed3>(), json.at("q_wxyz").get<Packed4>()});
+Pose poseFrom(const nlohmann::json& told) {
+  return unpack(PackedPose{told.at("p_m").get<Packed3>(), told.at("q_wxyz").get<Packed4>()});
 }
 
 }  // namespace

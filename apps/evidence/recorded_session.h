@@ -11,6 +11,7 @@
 #include "anatomy/query/surface_query.h"
 #include "apps/assess/force_balance.h"
 #include "apps/assess/needle/assess_trial.h"
+#include "apps/assess/needle/needle_views.h"
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/assess/needle/trial_sampler.h"
 #include "apps/record/session_file.h"
@@ -54,6 +55,11 @@ class RecordedSession {
   /// The same, of a session that was not to be scored as well.
   assess::TrialAssessment judged(const record::RecordedTrial& trial, const Samples& samples) const;
   const task_needle::TaskSettings& task() const { return task_; }
+  /// Where a needle's track can be seen; none where the task teaches no way to a vein.
+  std::optional<assess::NeedleViews> views() const {
+    return taught_path_ ? std::optional(assess::needleViewsOf(patient_, *taught_path_))
+                        : std::nullopt;
+  }
 
  private:
   std::unique_ptr<record::SessionReader> reader_;

@@ -6,6 +6,7 @@
 
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
+#include "apps/evidence/needle_track.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/report/page/style.h"
 #include "apps/task_needle/near_miss_watch.h"
@@ -52,16 +53,17 @@ std::vector<replay::StripMark> marksOf(const assess::TrialAssessment& judged) {
   return marks;
 }
 
-/// Judged again, for the marks; none where it cannot be.
-std::vector<replay::StripMark> marksIn(const RecordedSession& session, int number) {
-  std::vector<replay::StripMark> marks;
-  if (!session.hasGoal() && session.reader().info().expert_path_json.empty()) return marks;
+/// Judged again, for its marks, and its way drawn; nothing where it cannot be.
+void judgeAgain(RecordedNeedleTrial* show) {
+  const RecordedSession& session = show->session;
+  if (!session.hasGoal() && session.reader().info().expert_path_json.empty()) return;
+  const std::optional<assess::NeedleViews> views = session.views();
   session.eachTrial(
       [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
-        if (trial.header.trial == number && !samples.empty())
-          marks = marksOf(session.rescore(trial, samples));
+        if (trial.header.trial != show->trial.number || samples.empty()) return;
+        show->trial.marks = marksOf(session.rescore(trial, samples));
+        if (views) show->way = needleTrack(*views, samples);
       });
-  return marks;
 }
 
 }  // namespace
@@ -101,7 +103,7 @@ RecordedNeedleTrial::RecordedNeedleTrial(const std::filesystem::path& file, int 
   if (trial.moments.empty())
     throw Error("has no ticks of trial " + std::to_string(trial.number), file.string(),
                 "The program stopped before it began");
-  trial.marks = marksIn(session, trial.number);
+  judgeAgain(this);
 }
 
 }  // namespace palpa::evidence

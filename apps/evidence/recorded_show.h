@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "anatomy/patient.h"
 #include "apps/evidence/recorded_session.h"
@@ -17,6 +18,8 @@ class RecordedShow {
   virtual const anatomy::Patient& patient() const = 0;
   virtual double length_s() const = 0;
   virtual const std::vector<replay::StripMark>& marks() const = 0;
+  /// Where a needle went, for pictures beside (needleTrack); null where none is shown.
+  virtual nlohmann::json track() const { return nullptr; }
   virtual bool pictures() const { return false; }    ///< of the camera, beside
   virtual bool fixedViews() const { return false; }  ///< as the session had them
   virtual void hideMap() {}                          ///< of what is felt, where there is one
@@ -34,6 +37,7 @@ struct RecordedNeedleTrial final : RecordedShow {
   const anatomy::Patient& patient() const override { return session.patient(); }
   double length_s() const override { return trial.length_s(); }
   const std::vector<replay::StripMark>& marks() const override { return trial.marks; }
+  nlohmann::json track() const override { return way; }
   bool pictures() const override { return !films.empty(); }
   bool fixedViews() const override { return true; }
   std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) override {
@@ -42,6 +46,7 @@ struct RecordedNeedleTrial final : RecordedShow {
 
   RecordedSession session;
   replay::NeedleTrial trial;
+  nlohmann::json way;
   replay::RecordedPictures films;  ///< of the camera, where they lie beside the file
 };
 

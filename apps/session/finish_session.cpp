@@ -195,7 +195,7 @@ void writeNeedle(const LeftSession& session, const ReportHead& head, const Repor
   writeNeedleResults(head,
                      endedOnes<task_needle::CompletedTrial>(recordedNeedles(recorded),
                                                             &evidence::RecordedNeedle::again),
-                     tail, recorded.X_DA(), session.evidence);
+                     tail, recorded.X_DA(), recorded.views(), session.evidence);
 }
 
 void writePalpation(const LeftSession& session, const ReportHead& head, const ReportTail& tail) {

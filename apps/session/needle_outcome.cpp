@@ -175,6 +175,7 @@ ReportHead headOf(const SessionOptions& options, const NeedleWorld& world) {
 void writeNeedleResults(const ReportHead& head,
                         const std::vector<task_needle::CompletedTrial>& trials,
                         const ReportTail& tail, const Pose& X_DA,
+                        std::optional<assess::NeedleViews> views,
                         const std::filesystem::path& evidence) {
   std::vector<assess::TrialAssessment> scored;
   for (const auto& trial : trials)
@@ -193,6 +194,7 @@ void writeNeedleResults(const ReportHead& head,
       head.assessed ? std::optional(evidence::readForms("", "")) : std::nullopt;
   page.trials = pages(trials, tail.pictures, forms ? &*forms : nullptr);
   page.courses = coursesIn(evidence, X_DA);
+  page.views = std::move(views);
   page.registration = tail.registration;
   page.parts = partsOf(head.parts, trials, [](const auto& t) {
     return std::tuple(t.assessment.doses, t.assessment.augmented,
@@ -203,9 +205,12 @@ void writeNeedleResults(const ReportHead& head,
 
 void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
                   const SessionResult& result, const std::filesystem::path& folder) {
-  writeNeedleResults(headOf(options, world), result.trials,
-                     {result.pictures, runNotes(result), registrationFacts(result, world)},
-                     world.X_DA, folder / "session.palpa");
+  writeNeedleResults(
+      headOf(options, world), result.trials,
+      {result.pictures, runNotes(result), registrationFacts(result, world)}, world.X_DA,
+      world.taught_path ? std::optional(assess::needleViewsOf(world.patient, *world.taught_path))
+                        : std::nullopt,
+      folder / "session.palpa");
   if (!result.registration.empty())
     writeRegistration(result.registration, folder / "registration.csv");
 

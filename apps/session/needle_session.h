@@ -21,10 +21,11 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
                                const std::filesystem::path& folder, SessionCost* cost = nullptr);
 
 /// trials.csv and report.html beside the evidence, from trials as the session judged them or as
-/// they were judged again.
+/// they were judged again. `views`: none where the task teaches no way to a vein.
 void writeNeedleResults(const ReportHead& head,
                         const std::vector<task_needle::CompletedTrial>& trials,
                         const ReportTail& tail, const Pose& X_DA,
+                        std::optional<assess::NeedleViews> views,
                         const std::filesystem::path& evidence);
 
 /// The same of a session that has just ended and, for recorded pictures, registration.csv; then the

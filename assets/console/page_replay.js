@@ -2,6 +2,7 @@
 import { h, mark, put, say, svg } from "./dom.js";
 import { clock, figure } from "./format.js";
 import { asTable, choice, field, notice, progress, table } from "./parts.js";
+import { needleTrack } from "./needle_track.js";
 import { loadReplay, momentsOf, trialsBeside } from "./replay_data.js";
 import { Pictures, Player } from "./replay_player.js";
 import { valueAt } from "./scale.js";
@@ -179,6 +180,7 @@ function build({ root, life, id, n, replay, options }) {
     mine = view("Picture of this trial at the chosen time", `This trial: ${n}`),
     views = h("div", { class: "replay-views" }, mine.node),
     legend = h("div", {}),
+    way = h("div", {}),
     problems = h("div", {});
   const timeline = new Timeline({
     title: "Phases, events, force and depth of the trial over time",
@@ -191,7 +193,8 @@ function build({ root, life, id, n, replay, options }) {
     player.stop();
   });
   const pictures = new Pictures(mine.img, id, n, replay);
-  let other = null,
+  let track = null,
+    other = null,
     otherPictures = null,
     turn = 0;
   const draw = () => {
@@ -245,11 +248,13 @@ function build({ root, life, id, n, replay, options }) {
   select.addEventListener("change", beside);
   player.onChange((t) => {
     timeline.moveCursor(t);
+    track?.at(t);
     pictures.at(t);
     otherPictures?.at(Math.min(t, other.length));
   });
   root.append(
     views,
+    way,
     ...playerBar(life, player, 1 / (replay.fps || 5)),
     timeline.node,
     legend,
@@ -277,10 +282,20 @@ function build({ root, life, id, n, replay, options }) {
     asTable("Data as a table", () => secondsTable(replay)),
   );
   draw();
+  let asked = false;
+  const showWay = async () => {
+    if (asked) return;
+    asked = true;
+    track = await needleTrack(id, n).catch(() => null);
+    if (!track) return;
+    put(way, track.node);
+    track.at(player.t);
+  };
   return (changed) => {
     Object.assign(replay, changed);
     mine.show(replay);
     pictures.at(player.t);
+    if (replay.track) showWay();
   };
 }
 

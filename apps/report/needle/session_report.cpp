@@ -49,7 +49,7 @@ void writeTrials(Html& html, const SessionReport& report) {
   eachPage(
       report.trials, report.courses, [](const TrialPage& page) { return page.assessment.trial; },
       [&](const TrialPage& page) {
-        writeTrialSection(html, page);
+        writeTrialSection(html, page, report.views ? &*report.views : nullptr);
         html.passOn();
       });
 }
@@ -59,7 +59,8 @@ void writePage(Html& html, const SessionReport& report) {
   {
     const auto root = html.in("html", {{"lang", "en"}});
     writeHeadElement(html, report.title, report.trainee,
-                     std::string(subtaskTableStyle()) + std::string(competenceStyle()));
+                     std::string(subtaskTableStyle()) + std::string(competenceStyle()) +
+                         std::string(report.views ? trackStyle() : ""));
     const auto body = html.in("body");
     writeHeader(html, report);
     {
@@ -89,7 +90,7 @@ void writeReport(const SessionReport& report, const std::filesystem::path& file)
   whole.finish();
 }
 
-void writeTrialSection(Html& html, const TrialPage& page) {
+void writeTrialSection(Html& html, const TrialPage& page, const assess::NeedleViews* views) {
   const assess::TrialAssessment& trial = page.assessment;
   const std::string id = "trial-" + std::to_string(trial.trial);
   const auto section = html.in("section", {{"class", "card trial"}, {"id", id}});
@@ -100,6 +101,7 @@ void writeTrialSection(Html& html, const TrialPage& page) {
       html.element("span", {{"class", "role"}}, role);
   }
   writeVerdict(html, trial);
+  if (views && !page.samples.empty()) writeTrack(html, *views, page.samples);
   writeCompetence(html, page);
   if (trial.by_path) {
     html.element("h3", "Score");

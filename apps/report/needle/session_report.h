@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/assess/competence/verdict.h"
+#include "apps/assess/needle/needle_views.h"
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/session_page.h"
@@ -37,6 +38,7 @@ struct SessionReport : SessionPage {
   /// registration error and its source, simulated truth named as such
   std::vector<Fact> registration;
   SubtaskSection parts;
+  std::optional<assess::NeedleViews> views = {};  ///< none: the task teaches no way to a vein
 };
 
 /// Writes one self-contained HTML page (no network, no script needed to read it), trial by trial:

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/assess/needle/needle_views.h"
 #include "apps/assess/needle/trial_assessment.h"
 #include "apps/report/needle/session_report.h"
 #include "apps/report/page/html.h"
@@ -11,8 +12,9 @@
 
 namespace palpa::report {
 
-/// One trial: verdict, score, course, near misses, pictures.
-void writeTrialSection(Html& html, const TrialPage& page);
+/// One trial: verdict, where the needle went, score, course, near misses, pictures. `views`: null
+/// where the task teaches no way to a vein.
+void writeTrialSection(Html& html, const TrialPage& page, const assess::NeedleViews* views);
 
 /// Reaching the vein is not all: a puncture of lung or artery on the way is a serious error that
 /// the rest of a good performance does not make up for.
@@ -46,6 +48,11 @@ void writeNearMisses(Html& html, const assess::TrialAssessment& assessment);
 void writeCompetence(Html& html, const TrialPage& page);
 
 std::string_view competenceStyle();
+
+/// Where each pass went in, its way from the side, and what it was aimed at.
+void writeTrack(Html& html, const assess::NeedleViews& views,
+                const std::vector<assess::TrialSample>& samples);
+std::string_view trackStyle();
 
 /// All trials of the session: total per trial as a line, then a table. For two trials or more.
 void writeOverview(Html& html, const std::vector<TrialPage>& trials);

@@ -299,6 +299,10 @@ test("the replay is scrubbed, an expert beside", { skip, timeout: 500_000 }, asy
     null,
     { timeout: 400_000 },
   );
+  // Where the needle is, from three sides; it follows the time.
+  const way = page.locator(".track .tip-path").nth(1);
+  await page.locator(".track svg").nth(2).waitFor();
+  const wayBefore = await way.getAttribute("d");
   const before = await img.getAttribute("src");
   await page.getByRole("slider").fill("6");
   assert.match(await time.textContent(), /^0:06\.0/);
@@ -306,6 +310,7 @@ test("the replay is scrubbed, an expert beside", { skip, timeout: 500_000 }, asy
     (s) => document.querySelector(".view-box img").getAttribute("src") !== s,
     before,
   );
+  assert.notEqual(await way.getAttribute("d"), wayBefore);
   await page.getByRole("slider").focus();
   await page.keyboard.press("ArrowRight");
   assert.doesNotMatch(await time.textContent(), /^0:06\.0/);
