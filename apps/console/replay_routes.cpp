@@ -168,13 +168,14 @@ class ReadTrials {
   std::deque<std::pair<std::string, json>> kept_;
 };
 
-json replay(Console& c, ReadTrials& read, const std::string& id, int number) {
+/// `all`: else only how far its pictures are, for a page that has the rest.
+json replay(Console& c, ReadTrials& read, const std::string& id, int number, bool all) {
   const Recorded where = recorded(c, id, number);
   if (const auto link = c.sessions.link(id);
       link && !link->wait(0, std::chrono::milliseconds(0)).over)
     throw UsageError("is still running", "the session",
                      "Its trials can be seen again when it is over");
-  json told = read.of(where, number, c.tone);
+  json told = all ? read.of(where, number, c.tone) : json::object();
   drawPictures(c, where, number, &told);
   return told;
 }
@@ -183,11 +184,12 @@ json replay(Console& c, ReadTrials& read, const std::string& id, int number) {
 
 void addReplayRoutes(WebServer& server, Console& c) {
   const auto read = std::make_shared<ReadTrials>();
-  server.Get(
-      R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/replay)",
-      [&c, read](const httplib::Request& q, httplib::Response& r) {
-        answer(r, replay(c, *read, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))));
-      });
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/replay)",
+             [&c, read](const httplib::Request& q, httplib::Response& r) {
+               answer(r,
+                      replay(c, *read, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0)),
+                             q.get_param_value("only") != "pictures"));
+             });
   const auto drawn = [&c](const httplib::Request& q) {
     return recorded(c, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))).pictures;
   };

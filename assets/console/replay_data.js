@@ -6,31 +6,47 @@ import { momentsIn } from "./moments.js";
 const known = (x) => (Number.isFinite(x) ? x : NaN);
 const numbers = (x) => (Array.isArray(x) ? x : []);
 
+function curvesOf(answer) {
+  const t = numbers(answer.t_s);
+  return {
+    ...answer,
+    t,
+    force: numbers(answer.force_N).map(known),
+    depth: numbers(answer.depth_mm).map(known),
+    events: numbers(answer.events),
+    phases: numbers(answer.phases),
+    length: Number(answer.length_s) || t.at(-1) || 1,
+  };
+}
+
+/** Asked for again and again: how far the pictures are, and what they found. */
+const pictureState = ({ ready, drawn, done, track, trouble, frames, near }) => ({
+  ready,
+  drawn,
+  done,
+  track,
+  trouble,
+  near: numbers(near),
+  ...(frames === undefined ? {} : { frames }),
+});
+
 /**
  * Curves are there at once; `changed(replay)` is called then, as the pictures
  * grow, and when they are ready.
  */
 export async function loadReplay(life, session, trial, changed) {
-  await life.every(1000, async () => {
+  const path = url("/api/sessions", session, "trials", String(trial), "replay");
+  let replay = null;
+  await life.every(400, async () => {
     let answer;
     try {
-      answer = await get(url("/api/sessions", session, "trials", String(trial), "replay"));
+      answer = await get(replay ? `${path}?only=pictures` : path);
     } catch (error) {
       if (error.offline) throw error;
       changed({ failed: error.message });
       return false;
     }
-    const t = numbers(answer.t_s);
-    const replay = {
-      ...answer,
-      t,
-      force: numbers(answer.force_N).map(known),
-      depth: numbers(answer.depth_mm).map(known),
-      events: numbers(answer.events),
-      phases: numbers(answer.phases),
-      near: numbers(answer.near),
-      length: Number(answer.length_s) || t.at(-1) || 1,
-    };
+    replay = { ...(replay || curvesOf(answer)), ...pictureState(answer) };
     changed(replay);
     return !replay.ready;
   });

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <regex>
-#include <sstream>
 
 #include "apps/session/session_options.h"
+#include "tests/session/page_lines.h"
 #include "tests/session/quick_sessions.h"
 #include "tests/support/counts.h"
 
@@ -13,26 +13,8 @@
 namespace palpa::session {
 namespace {
 
-/// A page as lines of words: each element its own.
-std::vector<std::string> linesOf(const std::string& html) {
-  std::string text = std::regex_replace(html, std::regex("<[^>]*>"), "\n");
-  for (const auto& [entity, sign] :
-       {std::pair{"&#39;", "'"}, {"&quot;", "\""}, {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
-    text = std::regex_replace(text, std::regex(entity), sign);
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    if (const auto at = line.find_first_not_of(' '); at != std::string::npos)
-      lines.push_back(line.substr(at));
-  return lines;
-}
-
-/// "2.5 mm", "−3", "1 234.5": the number that it begins with.
-double numberIn(std::string text) {
-  for (const auto& [sign, plain] : {std::pair{"\u2212", "-"}, {"\u202f", ""}})
-    text = std::regex_replace(text, std::regex(sign), plain);
-  return std::strtod(text.c_str(), nullptr);
-}
+using test::linesOf;
+using test::numberIn;
 
 /// What one trial's part of a page says.
 struct Told {

@@ -51,7 +51,9 @@ std::string endWords(Outcome outcome) {
 }  // namespace
 
 std::string percentWords(double share) {
-  return decimalWords(std::floor(100 * share + 1e-9), 0) + " %";
+  const double tenths = std::floor(1000 * share + 1e-9);
+  const bool whole = !std::isfinite(tenths) || std::fmod(tenths, 10) == 0;
+  return decimalWords(tenths / 10, whole ? 0 : 1) + " %";
 }
 std::string newtonWords(double newtons) { return decimalWords(newtons, 1) + " N"; }
 

@@ -23,8 +23,9 @@ std::vector<std::string> palpationAdvice(const PalpationAssessment& assessment,
                                          const PalpationStandard& standard,
                                          PalpationSamples samples);
 
-/// Numbers as text, the same in every locale: "91 %" (rounded down, so that no share is said to
-/// reach a standard that it misses), "1.20 N" as "1.2 N".
+/// Numbers as text, the same in every locale and wherever a page says them: "91 %", "58.7 %"
+/// (rounded down, so that no share is said to reach a standard that it misses), "1.20 N" as "1.2
+/// N".
 std::string percentWords(double share);
 std::string newtonWords(double newtons);
 

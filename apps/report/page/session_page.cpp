@@ -18,10 +18,10 @@ void writeRemarks(Html& html, const std::vector<Remark>& remarks) {
 }
 
 void writeNext(Html& html, const std::vector<std::string>& next) {
-  for (const std::string& one : next) {
+  for (std::size_t i = 0; i < next.size(); ++i) {
     const auto line = html.in("p", {{"class", "next"}});
-    html.element("strong", "Practise next:");
-    html.text(" " + one + ".");
+    html.element("strong", i == 0 ? "Practise next:" : "Then:");
+    html.text(" " + next[i] + ".");
   }
 }
 

@@ -44,8 +44,8 @@ void writePalpationTiles(Html& html, const assess::PalpationAssessment& trial) {
     html.element("strong", value);
   };
   tile("Duration", fixed(trial.score.seconds, 1) + " s");
-  tile("Area felt", fixed(100 * trial.score.coverage.front(), 1) + " %");
-  tile("Felt deeply", fixed(100 * trial.score.coverage.back(), 1) + " %");
+  tile("Area felt", assess::percentWords(trial.score.coverage.front()));
+  tile("Felt deeply", assess::percentWords(trial.score.coverage.back()));
   tile("False alarms", std::to_string(trial.score.false_alarms));
   tile("Force feedback", trial.facts.force_feedback ? "on" : "off");
   tile("Seed", std::to_string(trial.facts.seed));

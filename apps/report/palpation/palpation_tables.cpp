@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/assess/palpation/coverage_map.h"
+#include "apps/assess/palpation/palpation_words.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/palpation/palpation_charts.h"
 
@@ -17,7 +18,7 @@ constexpr const char* kHardnessWords[] = {"soft", "hard"};
 constexpr const char* kMobilityWords[] = {"fixed", "mobile"};
 
 std::string percentText(double share) {
-  return std::isfinite(share) ? fixed(100 * share, 1) + " %" : "–";
+  return std::isfinite(share) ? assess::percentWords(share) : "–";
 }
 std::string mmText(double metres, int decimals) { return fixed(1000 * metres, decimals) + " mm"; }
 

@@ -56,7 +56,9 @@ std::string recoveredWords(const assess::Recovery& recovery) {
 }  // namespace
 
 const char* stiffnessWords(SearchMode mode) {
-  return mode == SearchMode::real ? "full stiffness" : assess::name(mode);
+  return mode == SearchMode::real       ? "full stiffness"
+         : mode == SearchMode::degraded ? "degraded stiffness"
+                                        : "degraded, with cues";
 }
 
 std::string foundSentence(const assess::SearchTally& t) {

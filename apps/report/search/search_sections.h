@@ -11,7 +11,7 @@
 
 namespace palpa::report {
 
-/// "full stiffness", "degraded", "augmented".
+/// "full stiffness", "degraded stiffness", "degraded, with cues": short, for tables and charts.
 const char* stiffnessWords(assess::SearchMode mode);
 
 /// "In 10 of 10 episodes with full stiffness the target was found, 95 % interval 72 % to 100 %. The
