@@ -9,9 +9,14 @@ const kTail_s = 4; // of the tip's way, drawn behind it
 const d = (points, closed) =>
   points.length ? `M${points.map(([x, y]) => `${x} ${-y}`).join("L")}${closed ? "Z" : ""}` : "";
 
-const namesIn = (view) =>
+/** In letters as large in the wide picture as in the square ones. */
+const namesIn = (view, width) =>
   view.names.map(({ organ, at: [x, y] }) =>
-    svg("text", { class: "organ-name", x, y: 1 - y }, organ),
+    svg(
+      "text",
+      { class: "organ-name", x, y: 1 - y, "font-size": width / (view.kind === "way" ? 26 : 18) },
+      organ,
+    ),
   );
 
 const cross = ([x, y]) =>
@@ -57,7 +62,7 @@ function picture(view) {
       tail,
       needle,
       tip,
-      namesIn(view),
+      namesIn(view, width),
       svg("path", { class: "measure", d: `M${left + 2} ${-bottom - 2}h10` }),
     ),
     h("figcaption", {}, `${view.title}. Right: ${view.across}; up: ${view.up}. Bar: 1 cm`),

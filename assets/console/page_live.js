@@ -111,6 +111,13 @@ function picture() {
   };
 }
 
+/** The pictures of a trial are begun before anybody asks: a debrief follows at once. */
+function drawAhead(id, trial) {
+  get(`${url("/api/sessions", id, "trials", String(trial), "replay")}?only=pictures`).catch(() => {
+    /* the replay's page says what is wrong */
+  });
+}
+
 export async function show({ root, life, params: [id], open }) {
   const session = await get(url("/api/sessions", id));
   if (life.over) return;
@@ -205,7 +212,9 @@ export async function show({ root, life, params: [id], open }) {
   const showEnd = (end) => {
     document.body.dataset.sessionOn = "no";
     time.running = false;
-    const good = end.state === "finished";
+    const good = end.state === "finished",
+      last = session.blind || end.state === "failed" ? 0 : curves.trial;
+    if (last > 0) drawAhead(id, last);
     put(
       over,
       h(
@@ -226,6 +235,13 @@ export async function show({ root, life, params: [id], open }) {
             { class: "button primary big", href: `#/results/${encodeURIComponent(id)}` },
             "Read the result",
           ),
+          last > 0
+            ? h(
+                "a",
+                { class: "button", href: `#/replay/${encodeURIComponent(id)}/${last}` },
+                "Debrief: the last trial again",
+              )
+            : null,
           h("a", { class: "button", href: "#/session" }, "Another session"),
         ),
       ),

@@ -254,8 +254,8 @@ function build({ root, life, id, n, replay, options }) {
   });
   root.append(
     views,
-    way,
     ...playerBar(life, player, 1 / (replay.fps || 5)),
+    way,
     timeline.node,
     legend,
     h(

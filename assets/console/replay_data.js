@@ -37,7 +37,7 @@ const pictureState = ({ ready, drawn, done, track, trouble, frames, near }) => (
 export async function loadReplay(life, session, trial, changed) {
   const path = url("/api/sessions", session, "trials", String(trial), "replay");
   let replay = null;
-  await life.every(400, async () => {
+  await life.every(250, async () => {
     let answer;
     try {
       answer = await get(replay ? `${path}?only=pictures` : path);
