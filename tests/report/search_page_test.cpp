@@ -77,7 +77,7 @@ TEST(SearchPage, TheTargetIsDrawnWhereItLay) {
 TEST(SearchPage, DosesAreSummedByStiffness) {
   const std::string page = searchPage(test::searchedSession());
   EXPECT_EQ(timesIn(page, "class=\"parts\""), 3u);
-  EXPECT_TRUE(holds(page, "Augmented, 10 episodes"));
+  EXPECT_TRUE(holds(page, "Degraded, with cues, 10 episodes"));
   EXPECT_EQ(timesIn(page, "Added in all</th>"), 1u) << "only where a cue was felt";
   EXPECT_TRUE(holds(page, "20.0 s</td>\n<td>30.00 N s</td>\n<td>1.50 N"));
   EXPECT_TRUE(holds(page, "the probe moves slowly, along a groove or a pit"));

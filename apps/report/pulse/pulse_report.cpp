@@ -54,10 +54,10 @@ void writeInShort(Html& html, const PulseReport& report,
   writeCountChart(html, report);
 }
 
-void writePulseHeads(Html& html, const std::vector<const char*>& names) {
+void writePulseHeads(Html& html, const std::vector<std::string>& names) {
   const auto head = html.in("thead");
   const auto row = html.in("tr");
-  for (const char* name : names) html.element("th", name);
+  for (const std::string& name : names) html.element("th", name);
 }
 
 void cell(Html& html, bool right, const std::string& text) {
@@ -70,14 +70,16 @@ void writePulseTrials(Html& html, const PulseReport& report) {
   html.element("h2", "Every trial");
   const auto table = html.in("table", {{"class", "answers"}});
   writePulseHeads(
-      html, {"Trial", "Artery", "Marked beside it, mm", "Counted a minute", "Delivered a minute",
-             "Rhythm named", "It was", "Pressed up to, N", "Time, s"});
+      html, {"Trial", "Artery",
+             "Marked beside it, mm (found: up to " + trimmed(1e3 * rules.found_within_m, 1) + ')',
+             "Counted a minute (right: within " + trimmed(rules.count_within, 1) + ')',
+             "Delivered a minute", "Rhythm named", "It was", "Pressed up to, N", "Time, s"});
   const auto body = html.in("tbody");
   for (const assess::PulseTrial& t : report.trials) {
     const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});
     html.element("td", std::to_string(t.trial) + (pulseCounts(t) ? "" : " (not counted)"));
     html.element("td", t.artery + ", " + fixed(1e3 * t.depth_m, 0) + " mm deep");
-    cell(html, t.found(rules), t.off_m ? fixed(1e3 * *t.off_m, 0) : "not marked");
+    cell(html, t.found(rules), t.off_m ? fixed(1e3 * *t.off_m, 1) : "not marked");
     cell(html, t.counts(rules), t.counted ? fixed(perMinute(*t.counted, rules), 0) : "no number");
     html.element("td", t.delivered ? fixed(perMinute(*t.delivered, rules), 0)
                                    : std::string("not counted to the end"));
