@@ -179,6 +179,7 @@ std::string runStudy(Console& c, const std::string& id, const json& body) {
   const study::Protocol protocol = study::readProtocol(wish.protocol);
   wish.blind = protocol.blind_educator;
   wish.task = id;
+  wish.title = protocol.title;
   wish.trainee = wordsIn(body, "trainee");
   if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty())
     throw UsageError(why, "trainee", "Choose one from the list");

@@ -74,8 +74,8 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<std::string> sessionCommand(const Console& c, const SessionWish& wish) {
-  const TaskChoice task = taskChoice(wish.task);
+std::vector<std::string> sessionCommand(const Console& c, const TaskChoice& task,
+                                        const SessionWish& wish) {
   const StationKind kind = stationKindOf(task.engine);
   if (wish.performer == "person" && !c.place.display && stationFile(c.place, kind).empty())
     throw UsageError("needs a window at the station, and there is no display",
@@ -143,11 +143,12 @@ void addSessionRoutes(WebServer& server, Console& c) {
              [&c](const httplib::Request&, httplib::Response& r) { answer(r, c.sessions.list()); });
   server.Post("/api/sessions", [&c](const httplib::Request& q, httplib::Response& r) {
     SessionWish wish = readWish(bodyOf(q));
-    wish.simulated =
-        isSimulated(c.place, stationKindOf(taskChoice(wish.task).engine), wish.performer);
+    const TaskChoice task = taskChoice(wish.task);
+    wish.title = task.title;
+    wish.simulated = isSimulated(c.place, stationKindOf(task.engine), wish.performer);
     if (c.sessions.oneRuns())
       return refuse(r, 409, "a session is running already: end it first, or wait until it is over");
-    answer(r, {{"id", c.sessions.begin(wish, sessionCommand(c, wish))}}, 201);
+    answer(r, {{"id", c.sessions.begin(wish, sessionCommand(c, task, wish))}}, 201);
   });
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64}))",
              [&c](const httplib::Request& q, httplib::Response& r) {

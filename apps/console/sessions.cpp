@@ -197,10 +197,15 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   for (const std::string& more :
        {std::string("--live"), socketOf(id), std::string("--out"), folder.string()})
     arguments.push_back(more);
-  json facts{{"task", wish.task},           {"trainee", wish.trainee},
-             {"started_utc", utcNow()},     {"assessed", wish.assess},
-             {"simulated", wish.simulated}, {"study", !wish.protocol.empty()},
-             {"blind", wish.blind},         {"trials", wish.trials}};
+  json facts{{"task", wish.task},
+             {"title", wish.title},
+             {"trainee", wish.trainee},
+             {"started_utc", utcNow()},
+             {"assessed", wish.assess},
+             {"simulated", wish.simulated},
+             {"study", !wish.protocol.empty()},
+             {"blind", wish.blind},
+             {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
   const os::ProcessId process = starter_.start(arguments, folder / kLog);
   facts["pid"] = process.pid;
@@ -238,6 +243,7 @@ json Sessions::described(const std::string& id, const fs::path& folder) {
   const std::string state = stateOf(id, folder);
   json one{{"id", id},
            {"task", textOf(facts, "task")},
+           {"title", textOf(facts, "title")},
            {"trainee", textOf(facts, "trainee")},
            {"started_utc", textOf(facts, "started_utc")},
            {"state", state},

@@ -17,6 +17,7 @@ namespace palpa::console {
 /// What an educator asks for when a session shall begin.
 struct SessionWish {
   std::string task;                  ///< id of a task file
+  std::string title = "";            ///< of the task, or of the study: what its pages call it
   std::string trainee;               ///< pseudonym; empty: nobody
   std::string performer = "person";  ///< person, expert, novice
   std::string side = "right";

@@ -28,15 +28,13 @@ export const figure = (x, digits = 1) => (Number.isFinite(x) ? x.toFixed(digits)
 export const capital = (text) => (text ? text[0].toUpperCase() + text.slice(1) : "");
 export const who = (trainee) => trainee || "nobody (T000)";
 
-const kTasks = {
-  paracentesis: "Subclavian access",
-  palpation: "Palpation",
-  squeeze: "Squeeze",
-  search: "Search",
-  friction: "Friction",
-  pulse: "Pulse",
-};
-export const taskName = (id) => kTasks[id] || capital(String(id || "task"));
+/** What a session was of: by its title; one of an older console has the task's id alone. */
+export const taskName = (session) =>
+  session.title || capital(String(session.task || "task").replaceAll("_", " "));
+
+/** Of a path only its last name: the rest is for whoever looks after the station. */
+export const withoutPaths = (text) =>
+  text.replace(/(^|[\s("'])[.~]*\/(?:[^\s/,;:)"']+\/)*([^\s/,;:)"']+)/g, "$1$2");
 
 const kSessionStates = {
   starting: ["work", "starting"],

@@ -52,10 +52,9 @@ function remember(here) {
       s.simulated ? simulatedBadge() : null,
     ]),
   );
-  const records = here.records ? `: ${here.records}` : "";
   say(
     document.getElementById("foot"),
-    `Palpa ${here.version || ""} · Records stay on this station${records} · ` +
+    `Palpa ${here.version || ""} · Records stay on this station · ` +
       "Pseudonyms only, nothing leaves this computer.",
   );
 }

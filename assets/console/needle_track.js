@@ -51,7 +51,6 @@ function picture(view) {
       "svg",
       {
         viewBox: `${left} ${-top} ${width} ${height}`,
-        style: `aspect-ratio:${width}/${height}`,
         role: "img",
         "aria-label": view.title,
       },

@@ -128,7 +128,7 @@ export async function show({ root, life, params: [id], open }) {
   document.body.dataset.sessionOn = "yes";
   const state = h("p", { class: "live-state", role: "status" }),
     tags = h("div", { class: "row tight" });
-  open(taskName(session.task), tags, state);
+  open(taskName(session), tags, state);
   const alarm = h("div", { role: "alert", class: "alarm" }),
     over = h("div", {});
   const time = new SessionTime(),

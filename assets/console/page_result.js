@@ -147,7 +147,7 @@ export async function show({ root, life, params: [id], open }) {
     return;
   }
   open(
-    `${taskName(session.task)}, ${moment(session.started_utc)}`,
+    `${taskName(session)}, ${moment(session.started_utc)}`,
     h(
       "button",
       { type: "button", class: "no-print", id: "print-page", onclick: () => window.print() },

@@ -27,7 +27,7 @@ const byText = (of) => (a, b) => of(a).localeCompare(of(b));
 const kOrders = {
   when: ["newest first", (a, b) => (a.started_utc < b.started_utc ? 1 : -1)],
   trainee: ["by trainee", byText((s) => s.trainee || "~")],
-  task: ["by task", byText((s) => taskName(s.task))],
+  task: ["by task", byText((s) => taskName(s))],
   best: ["best outcome first", (a, b) => share(b) - share(a) || penalty(a) - penalty(b)],
   worst: ["worst outcome first", (a, b) => share(a) - share(b) || penalty(b) - penalty(a)],
 };
@@ -43,7 +43,7 @@ function row(s) {
   const path = `#/${isOn(s) ? "session" : "results"}/${encodeURIComponent(s.id)}`;
   return [
     h("a", { href: path }, moment(s.started_utc)),
-    taskName(s.task),
+    taskName(s),
     s.trainee
       ? h("a", { href: `#/trainees/${encodeURIComponent(s.trainee)}` }, s.trainee)
       : "nobody",
@@ -63,8 +63,8 @@ function row(s) {
 }
 
 const namesOf = (map) => Object.entries(map).map(([key, [word]]) => [key, word]);
-const kinds = (sessions, of, word = (x) => x) =>
-  [...new Set(sessions.map(of).filter(Boolean))].sort().map((x) => [x, word(x)]);
+const kinds = (sessions, of) =>
+  [...new Set(sessions.map(of).filter(Boolean))].sort().map((x) => [x, x]);
 
 export async function show({ root, life, open }) {
   open("Results", h("a", { class: "button", href: "#/cohort" }, "Report on the cohort"));
@@ -84,7 +84,7 @@ export async function show({ root, life, open }) {
   };
   const offer = (sessions) => {
     const people = kinds(sessions, (s) => s.trainee),
-      tasks = kinds(sessions, (s) => s.task, taskName);
+      tasks = kinds(sessions, taskName);
     const now = JSON.stringify([people, tasks]);
     if (now === offered || sessions.length < 2) return;
     offered = now;
@@ -104,7 +104,7 @@ export async function show({ root, life, open }) {
     offer(sessions);
     const some = sessions
       .filter((s) => !wish.trainee || s.trainee === wish.trainee)
-      .filter((s) => !wish.task || s.task === wish.task)
+      .filter((s) => !wish.task || taskName(s) === wish.task)
       .filter(kOutcomes[wish.outcome][1])
       .sort(kOrders[wish.order][1]);
     if (sessions.length === 0)

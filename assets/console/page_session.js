@@ -1,7 +1,7 @@
 // A new session: a few choices, all with a default. When one is on already, it is shown instead.
 import { list, me as whoAmI, post } from "./api.js";
 import { h, put } from "./dom.js";
-import { isOn, taskName } from "./format.js";
+import { isOn } from "./format.js";
 import { choice, during, field, notice, offer, radios, tick } from "./parts.js";
 
 const kMostTrials = 50; // as the server takes them
@@ -50,7 +50,7 @@ function form(tasks, trainees, me, chosenTrainee) {
   const first = tasks.find((t) => t.id === "paracentesis") || tasks[0];
   const task = radios(
     "Task",
-    tasks.map((t) => [t.id, t.title || taskName(t.id), t.about || ""]),
+    tasks.map((t) => [t.id, t.title, t.about || ""]),
     first?.id,
     () => follow(),
   );

@@ -1,7 +1,7 @@
 // Is the station well? One sentence first, then what was found, then the way to a session.
 import { get, post } from "./api.js";
 import { announce, h, mark, put } from "./dom.js";
-import { capital, moment, plural } from "./format.js";
+import { capital, moment, plural, withoutPaths } from "./format.js";
 import { badge, button } from "./parts.js";
 
 const kStates = {
@@ -40,6 +40,10 @@ function sentence(health) {
   return ["good", "The station is well.", "Everything that a session needs was found and works."];
 }
 
+/** What was found; whole paths when one points at it. */
+const foundWords = (words) =>
+  h("p", { title: words === withoutPaths(words) ? null : words }, capital(withoutPaths(words)));
+
 function finding(f) {
   const [tone, word] = kStates[f.state] || ["neutral", String(f.state)];
   return h(
@@ -50,7 +54,7 @@ function finding(f) {
       "div",
       {},
       h("h3", {}, String(f.subject || "")),
-      h("p", {}, capital(String(f.verdict || ""))),
+      foundWords(String(f.verdict || "")),
       f.fix ? h("p", { class: "fix" }, h("strong", {}, "What to do: "), f.fix) : null,
     ),
   );

@@ -53,7 +53,7 @@ export async function show({ root, life, params: [id], open }) {
                 { href: `#/${isOn(s) ? "session" : "results"}/${encodeURIComponent(s.id)}` },
                 moment(s.started_utc),
               ),
-              taskName(s.task),
+              taskName(s),
               s.assessed ? "assessed" : "practice",
               badge(...sessionState(s.state)),
             ]),

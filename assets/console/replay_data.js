@@ -70,7 +70,7 @@ export async function trialsBeside(session, trial) {
       if (s.id === session && n === trial) continue;
       options.push([
         `${s.id}/${n}`,
-        `${taskName(s.task)}, ${moment(s.started_utc)}, ${who(s.trainee)}, trial ${n}` +
+        `${taskName(s)}, ${moment(s.started_utc)}, ${who(s.trainee)}, trial ${n}` +
           (s.simulated ? ", simulated" : ""),
       ]);
     }

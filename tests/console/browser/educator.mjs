@@ -18,6 +18,14 @@ const kArguments = [
 ];
 const kAxe = fs.readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const kHighest = 6000; // px
+/** What no page for educators shows. */
+const kNoWords = [
+  ["a brace", /[{}]/],
+  ["a name for programs", /\w_\w/],
+  ["an option of a command", /(^|\s)--\w/],
+  ["a path", /(^|\s)\.?\/\w[\w.-]*\//],
+  ["a session's number", /\d{8}-\d{6}-[0-9a-f]{8}/],
+];
 export const kDesktop = { width: 1366, height: 900 },
   kTablet = { width: 820, height: 1180 };
 
@@ -161,6 +169,37 @@ export class Educator {
         this.faults.push(`${name}, ${width}: smaller than 14 px: ${small.slice(0, 3).join(", ")}`);
     }
     await page.setViewportSize(kDesktop);
+  }
+
+  /**
+   * One page at the size at which it is used: a picture, axe, its words, and whether it leads
+   * anywhere. What is found is kept for the end.
+   */
+  async look(name, page = this.page) {
+    await page.waitForTimeout(200);
+    await this.picture(name.replace(/[^\w]+/g, "-"), page);
+    await page.setViewportSize(this.size);
+    await page.evaluate(kAxe);
+    const found = await page.evaluate(async () => {
+      const main = document.querySelector("dialog[open]") || document.querySelector("main");
+      const ways = [...main.querySelectorAll("a[href], button, iframe, input")].filter(
+        (x) => x.getClientRects().length > 0 && !/^Back/.test(x.textContent),
+      );
+      return {
+        axe: (await window.axe.run(document, { iframes: false })).violations.map(
+          (v) => `${v.id} at ${v.nodes.slice(0, 3).map((n) => n.target)}`,
+        ),
+        words: document.body.innerText.split("\n"),
+        ways: ways.length,
+        wide: document.documentElement.scrollWidth - window.innerWidth,
+      };
+    });
+    const tell = (what) => this.faults.push(`${name}: ${what}`);
+    for (const one of found.axe) tell(one);
+    if (found.ways === 0) tell("leads nowhere but back");
+    if (found.wide > 0) tell(`${found.wide} px wider than the screen`);
+    for (const line of found.words)
+      for (const [kind, pattern] of kNoWords) if (pattern.test(line)) tell(`${kind}: ${line}`);
   }
 
   /** Pictures a second in the stream that the live page shows, counted for `seconds`. */

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# educators_day.sh PALPA WORK: starts a console of the program PALPA on an empty virtual bench in
-# the folder WORK and plays an educator's day at it in Chromium.
+# at_a_console.sh PALPA WORK day|week: starts a console of the program PALPA on an empty virtual
+# bench in the folder WORK and lives an educator's day or week at it in Chromium.
 # Exits with 77 (skipped) and says why where Chromium, Node or the two libraries cannot be had.
 set -euo pipefail
-palpa=$(realpath "$1") work=$(realpath -m "$2")
+palpa=$(realpath "$1") work=$(realpath -m "$2") part=$3
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../../.." && pwd)
 . "$top/cmake/npm_package.sh"
@@ -17,6 +17,12 @@ skip() {
 command -v node >/dev/null || skip "no Node (Debian: nodejs)"
 rm -rf "$work" && mkdir -p "$work/run" && chmod 700 "$work/run"
 cp "$here"/*.mjs "$here/package.json" "$work"
+if [ "$part" = week ]; then  # with a study that ends within the week
+  mkdir -p "$work/assets/protocols"
+  ln -s "$top"/assets/* "$work/assets" 2>/dev/null || true  # "protocols" is there
+  cp -r "$top/assets/protocols/." "$here/week_study.json" "$work/assets/protocols"
+  export PALPA_ASSETS=$work/assets
+fi
 
 # The browser's driver and axe: each one file of the registry, without further
 # libraries, known by its sum.
@@ -69,8 +75,10 @@ trap leave EXIT
 bash "$work/begin.sh"
 url=$(sed -n 's/^The console: //p' "$work/console.txt")
 cd "$work"
-# Beside a package.json that says what kind of module it is.
-cp "$top/assets/console/moments.js" "$work"
-PALPA_CONSOLE_PAGES=$work node --test moments.test.mjs
-PALPA_CONSOLE_BEGIN=$work/begin.sh PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures \
-  node --test console.test.mjs
+export PALPA_CONSOLE_BEGIN=$work/begin.sh PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures
+if [ "$part" = day ]; then
+  # Beside a package.json that says what kind of module it is.
+  cp "$top/assets/console/moments.js" "$work"
+  PALPA_CONSOLE_PAGES=$work node --test moments.test.mjs
+fi
+node --test "$part.test.mjs"
