@@ -22,7 +22,7 @@ function enrolled(study) {
   ]);
   return rows.length
     ? table(
-        `Trainees enrolled in ${study.id}`,
+        `Trainees enrolled: ${study.title || study.id}`,
         ["Trainee", "Group", "Where", "Next", "Remarks"],
         rows,
         true,
