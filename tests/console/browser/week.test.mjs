@@ -186,6 +186,10 @@ test("every task is assessed; a trial is voided", { skip, timeout: 14 * kWhole }
     await state("Paused").waitFor();
     await voidTrial();
     await readResult();
+    assert.match(
+      await page.getByRole("row", { name: /void/ }).first().textContent(),
+      /technical fault/,
+    );
     await e.look(`assessed ${task}`);
   }
 });
