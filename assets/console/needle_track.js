@@ -14,7 +14,7 @@ const namesIn = (view, width) =>
   view.names.map(({ organ, at: [x, y] }) =>
     svg(
       "text",
-      { class: "organ-name", x, y: 1 - y, "font-size": width / (view.kind === "way" ? 26 : 18) },
+      { class: "organ-name", x, y: 1 - y, "font-size": width / (view.kind === "way" ? 25 : 17) },
       organ,
     ),
   );

@@ -161,7 +161,8 @@ export class Educator {
             (x) =>
               [...x.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()) &&
               x.getClientRects().length > 0 &&
-              parseFloat(getComputedStyle(x).fontSize) < 14,
+              // In a drawing the size is in its units.
+              parseFloat(getComputedStyle(x).fontSize) * (x.getScreenCTM?.()?.a ?? 1) < 13.9,
           )
           .map((x) => x.textContent.slice(0, 30)),
       );
