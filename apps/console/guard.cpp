@@ -14,9 +14,7 @@
 namespace palpa::console {
 namespace {
 
-constexpr std::size_t kKeptNumbers = 20'000, kMostWrites = 60, kMostWrong = 5, kMostRemotes = 1'000;
-constexpr std::chrono::seconds kWritesWithin{10}, kWrongWithin{60};
-constexpr char kCookie[] = "palpa=";
+constexpr std::size_t kKeptNumbers = 20'000;
 
 bool same(const std::string& a, const std::string& b) {
   return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
@@ -26,25 +24,6 @@ bool isNumber(const std::string& id) {
   return id.size() == 32 && std::all_of(id.begin(), id.end(), [](char c) {
            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
          });
-}
-
-std::string valueOf(const std::string& cookies) {
-  for (std::size_t at = 0; at < cookies.size();) {
-    const std::size_t end = std::min(cookies.find(';', at), cookies.size());
-    std::size_t begin = at;
-    while (begin < end && cookies[begin] == ' ') ++begin;
-    if (cookies.compare(begin, sizeof kCookie - 1, kCookie) == 0)
-      return cookies.substr(begin + sizeof kCookie - 1, end - begin - (sizeof kCookie - 1));
-    at = end + 1;
-  }
-  return "";
-}
-
-/// Moments of the last while, of somebody.
-template <class Times, class Time, class Span>
-std::size_t recent(Times& times, Time now, Span within) {
-  while (!times.empty() && now - times.front() > within) times.pop_front();
-  return times.size();
 }
 
 }  // namespace
@@ -90,7 +69,7 @@ Guard::Guard(std::string token)
     : token_(std::move(token)), page_key_(randomKey()), cookie_(randomKey()) {}
 
 bool Guard::entered(const std::string& cookie_header) const {
-  return token_.empty() || same(valueOf(cookie_header), cookie_);
+  return token_.empty() || same(cookieNamed("palpa", cookie_header), cookie_);
 }
 
 namespace {
@@ -98,6 +77,14 @@ namespace {
 /// What everybody gets, whoever they are and wherever they come from.
 bool isPage(const GuardedRequest& asked) {
   return asked.method == "GET" && (asked.path == "/" || asked.path.rfind("/static/", 0) == 0);
+}
+
+/// And what asks by itself whom it may answer: the doors, and what a trainee's key opens.
+bool isOpen(const GuardedRequest& asked) {
+  const bool own = asked.method == "GET" && asked.path.find("..") == std::string::npos &&
+                   (asked.path == "/api/mine" || asked.path.rfind("/api/mine/", 0) == 0);
+  return isPage(asked) || own || asked.path == "/api/me" || asked.path == "/api/enter" ||
+         asked.path == "/api/mine/enter";
 }
 
 }  // namespace
@@ -110,8 +97,7 @@ GuardVerdict Guard::judge(const GuardedRequest& asked) {
   } else if (asked.method != "GET") {
     return {405, "only GET and POST are understood"};
   }
-  const bool open = isPage(asked) || asked.path == "/api/me" || asked.path == "/api/enter";
-  if (!open && !entered(asked.cookie)) return {401, "give the console's token first"};
+  if (!isOpen(asked) && !entered(asked.cookie)) return {401, "give the console's token first"};
   return {};
 }
 
@@ -147,8 +133,10 @@ GuardVerdict Guard::judgePage(const GuardedRequest& asked) const {
 /// And it comes once, and not with too many others.
 GuardVerdict Guard::judgeNumber(const GuardedRequest& asked) {
   const std::lock_guard lock(mutex_);
-  if (!isStopPath(asked.path) && flooding(asked.remote))
-    return {429, "too many writes: wait a few seconds"};
+  if (!isStopPath(asked.path)) {
+    if (writes_.tooMany(asked.remote)) return {429, "too many writes: wait a few seconds"};
+    writes_.note(asked.remote);
+  }
   if (!written_.insert(asked.write_id).second) return {409, "this was requested before"};
   order_.push_back(asked.write_id);
   if (order_.size() > kKeptNumbers) {
@@ -158,23 +146,11 @@ GuardVerdict Guard::judgeNumber(const GuardedRequest& asked) {
   return {};
 }
 
-bool Guard::flooding(const std::string& remote) {
-  const Clock::time_point now = Clock::now();
-  if (writes_.size() > kMostRemotes) writes_.clear();
-  auto& times = writes_[remote];
-  if (recent(times, now, kWritesWithin) >= kMostWrites) return true;
-  times.push_back(now);
-  return false;
-}
-
 std::string Guard::enter(const std::string& remote, const std::string& token) {
   const std::lock_guard lock(mutex_);
-  const Clock::time_point now = Clock::now();
-  if (wrong_.size() > kMostRemotes) wrong_.clear();
-  auto& times = wrong_[remote];
-  if (recent(times, now, kWrongWithin) >= kMostWrong) return "";
+  if (wrong_.tooMany(remote)) return "";
   if (token_.empty() || !same(token, token_)) {
-    times.push_back(now);
+    wrong_.note(remote);
     return "";
   }
   return cookie_;

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <chrono>
 #include <deque>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
-#include "apps/runtime/clock.h"
+#include "apps/console/own_door.h"
+#include "apps/console/tries.h"
 
 /// Who may ask the console what. Judged from the request alone, before anything is done for it.
 namespace palpa::console {
@@ -50,20 +49,22 @@ class Guard {
   std::string enter(const std::string& remote, const std::string& token);
   bool entered(const std::string& cookie_header) const;
   const std::string& pageKey() const { return page_key_; }
+  bool asksForToken() const { return !token_.empty(); }
+  /// By which trainees come to "/api/mine" and what lies under it, and to nothing else.
+  OwnDoor& own() { return own_; }
 
  private:
-  using Clock = runtime::ServingClock;
   GuardVerdict judgeOrigin(const GuardedRequest& asked) const;
   GuardVerdict judgePage(const GuardedRequest& asked) const;
   GuardVerdict judgeNumber(const GuardedRequest& asked);
-  bool flooding(const std::string& remote);
 
   std::vector<std::string> hosts_;
   const std::string token_, page_key_, cookie_;
   mutable std::mutex mutex_;
   std::unordered_set<std::string> written_;  ///< numbers of writes
   std::deque<std::string> order_;            ///< of those, oldest first
-  std::map<std::string, std::deque<Clock::time_point>> writes_, wrong_;
+  Tries writes_{60, std::chrono::seconds(10)}, wrong_{5, std::chrono::seconds(60)};
+  OwnDoor own_;
 };
 
 /// 128 random bits, hexadecimal.

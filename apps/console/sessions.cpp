@@ -270,7 +270,7 @@ json Sessions::outcomeIn(const fs::path& folder, const json& described, int* rea
 }
 
 json Sessions::list() {
-  constexpr int kReadAtOnce = 20;
+  constexpr int kReadAtOnce = 4;
   look();
   const std::lock_guard lock(mutex_);
   std::vector<std::string> ids;

@@ -61,6 +61,7 @@ json me(const Console& c, bool entered) {
   if (!entered) return all;
   all["display"] = c.place.display;
   all["records"] = c.place.records;
+  all["token"] = c.guard.asksForToken();  // others can come to it, too
   all["stations"] = json::array();
   for (const StationKind kind : kStationKinds) all["stations"].push_back(described(c, kind));
   return all;

@@ -29,7 +29,8 @@ class Playback final : public runtime::Activity {
     trial::UserRequest request;
     while (channels_.requests_to_task.pop(&request))
       if (request.command == trial::UserCommand::start ||
-          request.command == trial::UserCommand::quit)
+          request.command == trial::UserCommand::quit ||
+          request.command == trial::UserCommand::escape)
         executive_.stop();
     if (start_ns_ < 0) start_ns_ = now_ns;
     const double t_s = static_cast<double>(now_ns - start_ns_) * 1e-9;

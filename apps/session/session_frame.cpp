@@ -268,6 +268,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   devices_.addTo(*executive_);
   if (const std::string warning = devices_.warning(); !warning.empty()) task.warn(warning);
   if (window_ && !options_.fast) task.stay();
+  if (window_) task.isMovedBy(trial::movedWords(heldBy(devices_), options_.left_handed));
   executive_->add(*haptic, {1, true, false, options_.cpu});
   if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});
   executive_->add(camera, {3, false, false});

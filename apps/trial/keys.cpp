@@ -56,11 +56,11 @@ std::vector<KeyHelp> ofEverySession() {
   return {{"Enter", "starts, continues"},
           {"P", "pauses"},
           {"A", "ends the trial without a result"},
-          {"F1 to F4", "void: interrupted, technical fault, trainee stopped, other"},
+          {"F5 to F8", "void: interrupted, technical fault, trainee stopped, other"},
           {"Space", "EMERGENCY STOP: forces are off"},
           {"R", "re-arms after it"},
           {"F11", "full screen, and back"},
-          {"Escape", "ends the session"}};
+          {"Escape, twice", "ends the session"}};
 }
 
 void append(std::vector<KeyHelp>& all, const std::vector<KeyHelp>& more) {
@@ -83,13 +83,13 @@ void handleKeys(const scene::ViewInput& input, Channels& channels, runtime::Stop
     else if (key == "r" || key == "R")
       send(channels, UserCommand::rearm);
     else if (key == "Escape")
-      send(channels, UserCommand::quit);
+      send(channels, UserCommand::escape);
     else if (key == "d" || key == "D")
       send(channels, UserCommand::done);
     else if (key.size() == 1 && key[0] >= '0' && key[0] <= '9')
       send(channels, UserCommand::choose, key);
-    else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
-      send(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
+    else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '5' && key[1] <= '8')
+      send(channels, UserCommand::void_trial, kVoidReasons[key[1] - '5']);
   }
 }
 
@@ -102,11 +102,24 @@ std::vector<KeyHelp> keysOf(const KeysInUse& use) {
   return all;
 }
 
+std::string movedWords(HeldBy held, bool left_handed) {
+  switch (held) {
+    case HeldBy::mouse_needle:
+      return std::string("Drag: over the skin. Wheel: in and out. ") +
+             (left_handed ? ". (full stop)" : "Z") + ": draw the plunger";
+    case HeldBy::mouse_finger:
+      return "Mouse: moves the finger. Left button: presses";
+    case HeldBy::device:
+      break;
+  }
+  return "";
+}
+
 std::string keysText(Engine engine) {
   std::string text;
   for (const KeyHelp& one : keysOf({.engine = engine, .free_skin = true, .one_fixed_view = true}))
     text += (text.empty() ? "Keys: " : "; ") + one.key + ": " + one.words;
-  return text + "; ?: shows these in the window";
+  return text + "; ? or F1: shows these in the window";
 }
 
 }  // namespace palpa::trial

@@ -30,5 +30,7 @@ struct KeysInUse {
 std::vector<scene::KeyHelp> keysOf(const KeysInUse& use);
 /// The same as one line of a command's help: "Keys: Enter starts or continues, ...".
 std::string keysText(training::Engine engine);
+/// How the tool is moved, in one line for the window; empty: a device says it by itself.
+std::string movedWords(HeldBy held, bool left_handed);
 
 }  // namespace palpa::trial

@@ -80,7 +80,7 @@ void TrialTask::checkReady(std::int64_t now_ns) {
   }
   if (!words.empty()) return;
   if (real_time_ && status_.trial == 0 && !load_.rehearsed())
-    status_.notice = "Wait: this computer is checked for 2 s";
+    status_.notice = "Checking this computer, 2 s";
   else
     becomeReady(now_ns);
 }
@@ -93,8 +93,8 @@ void TrialTask::becomeReady(std::int64_t now_ns) {
   status_.state = TrialState::waiting;
   since_ns_ = now_ns;
   if (!lead_.automatic)
-    status_.notice =
-        warning.empty() ? "Press Enter to start. ? shows keys" : warning + ". Enter starts";
+    status_.notice = warning.empty() ? "Press Enter to start. ? shows keys"
+                                     : warning + ". Enter starts, ? shows keys";
 }
 
 /// All for the evidence, the first for the notice; none forbids a trial.

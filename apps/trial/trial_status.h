@@ -62,6 +62,7 @@ enum class UserCommand : std::uint8_t {
   emergency_stop,
   rearm,
   quit,
+  escape,  ///< as quit, but a trial that is on is paused first, and it is asked for again
   done,
   grade,
   choose,

@@ -206,6 +206,8 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       return bus_.stop.press();
     case UserCommand::rearm:
       return rearm(now_ns);
+    case UserCommand::escape:
+      return escape(now_ns);
     case UserCommand::quit:
       leave(reason, now_ns);
       quit_ = true;
@@ -235,6 +237,18 @@ bool TrialTask::isMeant(const UserRequest& request, std::int64_t now_ns) {
   return status_.active();
 }
 
+/// A slip of the finger costs no trial: one that is on is paused, and ends when it is asked for
+/// again.
+void TrialTask::escape(std::int64_t now_ns) {
+  if (!status_.active() || asked_to_leave_)
+    return apply(UserRequest{UserCommand::quit, ""}, now_ns);
+  apply(UserRequest{UserCommand::pause, ""}, now_ns);
+  asked_to_leave_ = true;
+  status_.notice = std::string("Escape again ends the session: this trial ") +
+                   (training::inAssessment(status_.role) ? "counts as aborted" : "does not count") +
+                   ". Enter continues";
+}
+
 /// In practice nobody's failure; from an examination one does not slip away.
 void TrialTask::leave(const std::string& reason, std::int64_t now_ns) {
   if (!status_.active()) return;
@@ -243,6 +257,7 @@ void TrialTask::leave(const std::string& reason, std::int64_t now_ns) {
 }
 
 void TrialTask::goOn(std::int64_t now_ns) {
+  asked_to_leave_ = false;
   if (status_.state == TrialState::ended && stays_ && status_.trial >= status_.trials)
     since_ns_ = now_ns - kReading;
   if (status_.emergency_stop) return;  // only re-arming goes on from here
@@ -309,7 +324,8 @@ std::string TrialTask::canDo() const {
   if (status_.state == TrialState::paused) return "Enter continues, A ends the trial, ? shows keys";
   if (status_.state != TrialState::running) return "? shows keys";
   const std::string own = doing();
-  return own.empty() ? "P pauses, ? shows keys" : own + ". ? shows keys";
+  if (!own.empty()) return own + ". ? shows keys";
+  return moved_.empty() ? "P pauses, ? shows keys" : moved_ + ". ? shows keys";
 }
 
 void TrialTask::publish(std::int64_t now_ns) {

@@ -34,6 +34,8 @@ class TrialTask : public runtime::Activity {
 
   /// A window shows how the last trial ended until a person presses Enter, a minute at most.
   void stay() { stays_ = !lead_.automatic; }
+  /// How the tool is moved: said in the window while nothing else is to be said; empty: it is not.
+  void isMovedBy(const std::string& words) { moved_ = words; }
 
   const char* name() const override { return "task"; }
   std::int64_t step(std::int64_t now_ns) override;
@@ -101,6 +103,7 @@ class TrialTask : public runtime::Activity {
   void startTrial(std::int64_t now_ns);
   void publish(std::int64_t now_ns);
   std::string canDo() const;
+  void escape(std::int64_t now_ns);
   void comeToAnEnd(std::int64_t now_ns);
 
   Lead lead_;
@@ -126,7 +129,8 @@ class TrialTask : public runtime::Activity {
   std::int64_t start_ns_ = 0;         ///< of the trial
   int pictures_ = 0;                  ///< asked for so far
   std::int64_t now_ns_ = 0;           ///< of this step
-  bool quit_ = false;
+  bool quit_ = false, asked_to_leave_ = false;
+  std::string moved_;
 };
 
 /// "safety", "device", a loss of the camera, a computer that did not keep up: a report's notes tell

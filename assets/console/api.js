@@ -99,7 +99,7 @@ async function answerOf(response) {
  * the door. True when the page key is another one.
  */
 async function renewed(path) {
-  if (path === "/api/me" || path === "/api/enter") return false;
+  if (path === "/api/me" || path === "/api/enter" || path.startsWith("/api/mine")) return false;
   const before = pageKey;
   const now = await me(true);
   if (!now.entered) location.hash = "#/enter";

@@ -73,3 +73,16 @@ export function pictureName(file) {
   const parts = /^view-0*(\d+)-\d+-(.+)\.png$/.exec(file);
   return parts ? `Trial ${parts[1]}: ${parts[2].replace(/-/g, " ")}` : file;
 }
+
+/** Of the trials that count, in words and with a shape. */
+export function sessionOutcome(s) {
+  const o = s.outcome;
+  if (s.blind) return ["none", "blind study"];
+  if (!o) return ["none", "–"];
+  if (o.counting === 0) return ["none", "no trial counts"];
+  if (o.done > 0) return ["good", `${o.done} of ${o.counting} done`];
+  return [
+    o.succeeded === o.counting ? "good" : "note",
+    `${o.succeeded} of ${o.counting} succeeded`,
+  ];
+}

@@ -18,11 +18,14 @@ const routes = [
   ["replay/:id/:n", () => import("./page_replay.js")],
   ["studies", () => import("./page_studies.js")],
   ["enter", () => import("./page_enter.js")],
+  ["mine", () => import("./page_mine.js")],
 ];
 
 /** Nobody goes further than the door without the token; who is in need not stand at it. */
 async function guard(first) {
   const here = await me(!lastKnown());
+  document.body.dataset.guest = first === "mine" && !here.entered ? "yes" : "no";
+  if (first === "mine") return here;
   if (!here.entered && first !== "enter") {
     location.replace("#/enter");
     return null;

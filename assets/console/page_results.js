@@ -1,21 +1,8 @@
 // All sessions: what came of each, by trainee, task and outcome, in any order; the ways to reports.
 import { list } from "./api.js";
 import { h, put } from "./dom.js";
-import { figure, isOn, moment, plural, sessionState, taskName } from "./format.js";
+import { figure, isOn, moment, plural, sessionOutcome, sessionState, taskName } from "./format.js";
 import { badge, choice, field, simulatedBadge, table } from "./parts.js";
-
-/** Of the trials that count, in words and with a shape. */
-function outcomeOf(s) {
-  const o = s.outcome;
-  if (s.blind) return ["none", "blind study"];
-  if (!o) return ["none", "–"];
-  if (o.counting === 0) return ["none", "no trial counts"];
-  if (o.done > 0) return ["good", `${o.done} of ${o.counting} done`];
-  return [
-    o.succeeded === o.counting ? "good" : "note",
-    `${o.succeeded} of ${o.counting} succeeded`,
-  ];
-}
 
 const share = (s) =>
   s.outcome && s.outcome.counting > 0
@@ -48,7 +35,7 @@ function row(s) {
       ? h("a", { href: `#/trainees/${encodeURIComponent(s.trainee)}` }, s.trainee)
       : "nobody",
     s.assessed ? "assessed" : "practice",
-    badge(...outcomeOf(s)),
+    badge(...sessionOutcome(s)),
     Number.isFinite(s.outcome?.total) ? figure(s.outcome.total) : "–",
     [
       h(

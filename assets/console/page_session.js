@@ -199,7 +199,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       h(
         "div",
         { class: "grid three" },
-        field("Trials", trials),
+        field("Trials", trials, "A person tries once before: that one is not scored."),
         patientField,
         field("Seed", seed, "The same seed gives the same simulated hand again."),
       ),
@@ -208,7 +208,7 @@ function form(tasks, trainees, me, chosenTrainee) {
     said,
     h(
       "div",
-      { class: "row" },
+      { class: "row go" },
       go,
       h("span", { class: "muted" }, "You watch and control it on the next page."),
     ),

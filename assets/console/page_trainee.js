@@ -1,11 +1,35 @@
 // One trainee: agreements, sessions, report.
-import { list, url } from "./api.js";
-import { h } from "./dom.js";
+import { list, post, url } from "./api.js";
+import { h, put } from "./dom.js";
 import { day, isOn, moment, sessionState, taskName } from "./format.js";
-import { badge, facts, notice, table } from "./parts.js";
+import { badge, button, facts, notice, table } from "./parts.js";
 import { awaitReport } from "./report_frame.js";
 
-export async function show({ root, life, params: [id], open }) {
+/** A PIN by which the trainee reads these results on a device of his or her own. */
+function ownDevice(id) {
+  const shown = h("div", { role: "status" });
+  const show = async () => {
+    const { pin, minutes } = await post(url("/api/trainees", id, "pin"), {});
+    put(
+      shown,
+      h("p", { class: "pin" }, `${pin.slice(0, 3)} ${pin.slice(3)}`),
+      h(
+        "p",
+        { class: "hint" },
+        `On the trainee's own device, open ${location.origin}/#/mine and type this PIN. ` +
+          `It opens once, within ${minutes} minutes, and shows the results of ${id} only.`,
+      ),
+    );
+  };
+  return h(
+    "div",
+    { class: "card no-print" },
+    h("div", { class: "row" }, button("Show a PIN for the trainee's own device", show)),
+    shown,
+  );
+}
+
+export async function show({ root, life, params: [id], open, me }) {
   open(
     `Trainee ${id}`,
     h(
@@ -37,6 +61,7 @@ export async function show({ root, life, params: [id], open }) {
       ]),
     ),
   );
+  if (me.token) root.append(ownDevice(id));
   const own = sessions.filter((s) => s.trainee === id);
   root.append(
     h("h2", {}, "Sessions"),

@@ -40,7 +40,9 @@ bool inTime(Seen seen) {
 
 class Served {
  public:
-  Served(const std::filesystem::path& home, const std::string& sockets) {
+  Served(const std::filesystem::path& home, const std::string& sockets,
+         const std::string& token = "") {
+    settings_.token = token;
     settings_.place.home = home;
     settings_.place.pages = std::filesystem::path(PALPA_SOURCE_DIR) / "assets/console";
     settings_.place.records = (home.parent_path() / "records.sqlite").string();

@@ -24,7 +24,7 @@ class HelpFrame : public testing::TestWithParam<std::pair<int, int>> {
   double height() const { return GetParam().second; }
   static std::vector<KeyHelp> keys(int rows) {
     std::vector<KeyHelp> all(static_cast<std::size_t>(rows), {"Enter", "starts, continues"});
-    all.back() = {"F1 to F4", "void: interrupted, technical fault, trainee stopped, other"};
+    all.back() = {"F5 to F8", "void: interrupted, technical fault, trainee stopped, other"};
     return all;
   }
 

@@ -121,6 +121,44 @@ TEST_F(Rehearsing, TheLastResultStaysUntilItIsClosed) {
   EXPECT_EQ(task.state(), TrialState::finished);
 }
 
+TEST_F(Rehearsing, OneSlipOnEscapeCostsNoTrial) {
+  run(210);
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  channels.requests_to_task.push({UserCommand::escape, ""});
+  step();
+  EXPECT_EQ(task.state(), TrialState::paused);
+  EXPECT_FALSE(task.quit());
+  EXPECT_EQ(task.notice(),
+            "Escape again ends the session: this trial does not count. Enter continues");
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  EXPECT_EQ(task.state(), TrialState::running);
+  channels.requests_to_task.push({UserCommand::escape, ""});
+  step();
+  EXPECT_FALSE(task.quit()) << "it was taken back";
+  channels.requests_to_task.push({UserCommand::escape, ""});
+  step();
+  EXPECT_TRUE(task.quit());
+}
+
+TEST_F(Rehearsing, EscapeLeavesAtOnceWhereNoTrialIsOn) {
+  run(210);
+  ASSERT_EQ(task.state(), TrialState::waiting);
+  channels.requests_to_task.push({UserCommand::escape, ""});
+  step();
+  EXPECT_TRUE(task.quit());
+}
+
+TEST_F(Rehearsing, HowTheToolIsMovedIsSaidWhileNothingElseIs) {
+  task.isMovedBy("Drag: over the skin");
+  run(210);
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  step();
+  EXPECT_EQ(task.canBeDone(), "Drag: over the skin. ? shows keys");
+}
+
 TEST_F(Rehearsing, WhoGoesAwayHoldsTheStationUpForAMinute) {
   task.stay();
   run(210);
@@ -139,7 +177,7 @@ TEST_F(Rehearsing, WhoGoesAwayHoldsTheStationUpForAMinute) {
 TEST_F(Rehearsing, TakesTwoSecondsAndSaysNothingWhereTheComputerKeepsUp) {
   run(150);
   EXPECT_EQ(task.state(), TrialState::checking);
-  EXPECT_EQ(task.notice(), "Wait: this computer is checked for 2 s");
+  EXPECT_EQ(task.notice(), "Checking this computer, 2 s");
   run(60);
   EXPECT_EQ(task.state(), TrialState::waiting);
   EXPECT_EQ(task.notice(), "Press Enter to start. ? shows keys");
@@ -151,7 +189,8 @@ TEST_F(Rehearsing, SaysWhatTheComputerCannotDoAndForbidsNothing) {
   run(210);
   ASSERT_EQ(task.state(), TrialState::waiting);
   EXPECT_EQ(task.notice(),
-            "The haptic loop is late (99 % below 2.4 ms): close other programs. Enter starts");
+            "The haptic loop is late (99 % below 2.4 ms): close other programs. Enter starts, "
+            "? shows keys");
   EXPECT_EQ(of(runtime::EventKind::computer),
             (std::vector<std::string>{"The haptic loop is late (99 % below 2.4 ms): close other "
                                       "programs; palpa doctor tells more"}));
@@ -252,7 +291,7 @@ TEST_F(Rehearsing, TheEndOfASessionIsNoEmergencyStop) {
 TEST_F(Rehearsing, WhatWhoeverHoldsTheDeviceHasToKnowIsSaidToo) {
   task.warn("This device keeps its last force");
   run(210);
-  EXPECT_EQ(task.notice(), "This device keeps its last force. Enter starts");
+  EXPECT_EQ(task.notice(), "This device keeps its last force. Enter starts, ? shows keys");
   EXPECT_EQ(of(runtime::EventKind::device),
             (std::vector<std::string>{"This device keeps its last force"}));
 }

@@ -3,7 +3,7 @@
 # bench in the folder WORK and lives an educator's day or week at it in Chromium.
 # Exits with 77 (skipped) and says why where Chromium, Node or the two libraries cannot be had.
 set -euo pipefail
-palpa=$(realpath "$1") work=$(realpath -m "$2") part=$3
+palpa=$(realpath "$1") work=$(realpath -m "$2") part=$3 more=()
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../../.." && pwd)
 . "$top/cmake/npm_package.sh"
@@ -22,6 +22,11 @@ if [ "$part" = week ]; then  # with a study that ends within the week
   ln -s "$top"/assets/* "$work/assets" 2>/dev/null || true  # "protocols" is there
   cp -r "$top/assets/protocols/." "$here/week_study.json" "$work/assets/protocols"
   export PALPA_ASSETS=$work/assets
+  # As where tablets come to it: it asks for a token.
+  head -c 24 /dev/urandom | base64 >"$work/token" && chmod 600 "$work/token"
+  PALPA_CONSOLE_TOKEN=$(cat "$work/token")
+  export PALPA_CONSOLE_TOKEN
+  more=(--token-file "$work/token")
 fi
 
 # The browser's driver and axe: each one file of the registry, without further
@@ -52,8 +57,8 @@ if [ -f "$work/pid" ]; then
   kill -KILL "\$before"
   while grep -qv ') Z ' "/proc/\$before/stat" 2>/dev/null; do sleep 0.05; done
 fi
-setsid "$palpa" console --no-open --home "$work/home" --records "$work/records.sqlite" "\$@" \\
-  >"$work/console.txt" 2>&1 </dev/null &
+setsid "$palpa" console --no-open --home "$work/home" --records "$work/records.sqlite" \\
+  ${more[*]} "\$@" >"$work/console.txt" 2>&1 </dev/null &
 echo \$! >"$work/pid"
 for _ in \$(seq 300); do
   grep -q '^The console: ' "$work/console.txt" && exit 0

@@ -56,17 +56,20 @@ export class Educator {
       };
     });
     e.page = await e.newPage();
-    if (token) {
-      await e.go("#/enter");
-      await e.page.getByLabel("Token").fill(token);
-      await e.page.getByRole("button", { name: "Enter" }).click();
-      await e.page.waitForURL(/#\/station/);
-    }
+    if (token) await e.enter(token);
     return e;
   }
 
-  async newPage() {
-    const page = await this.context.newPage();
+  /** With the token, where the console asks for one. */
+  async enter(token) {
+    await this.go("#/enter");
+    await this.page.getByLabel("Token").fill(token);
+    await this.page.getByRole("button", { name: "Enter" }).click();
+    await this.page.waitForURL(/#\/station/);
+  }
+
+  async newPage(context = this.context) {
+    const page = await context.newPage();
     page.setDefaultTimeout(60_000);
     page.on("console", (m) => {
       if (["error", "warning"].includes(m.type()) && !this.away)
@@ -179,7 +182,7 @@ export class Educator {
   async look(name, page = this.page) {
     await page.waitForTimeout(200);
     await this.picture(name.replace(/[^\w]+/g, "-"), page);
-    await page.setViewportSize(this.size);
+    if (page === this.page) await page.setViewportSize(this.size);
     await page.evaluate(kAxe);
     const found = await page.evaluate(async () => {
       const main = document.querySelector("dialog[open]") || document.querySelector("main");

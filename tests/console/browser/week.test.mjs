@@ -10,6 +10,7 @@ import { Keyboard, Mouse } from "./hands.mjs";
 const url = process.env.PALPA_CONSOLE_URL;
 const skip = url ? false : "PALPA_CONSOLE_URL is not set: start a console and give its address";
 const begin = process.env.PALPA_CONSOLE_BEGIN;
+const token = process.env.PALPA_CONSOLE_TOKEN;
 const full = !!process.env.PALPA_FULL;
 const width = Number(process.env.PALPA_WEEK_WIDTH || 1024),
   by = process.env.PALPA_WEEK_BY || "mouse";
@@ -21,7 +22,7 @@ let e, page, hand;
 
 before(async () => {
   if (skip) return;
-  e = await Educator.come(url, process.env.PALPA_CONSOLE_SHOTS);
+  e = await Educator.come(url, process.env.PALPA_CONSOLE_SHOTS, token);
   page = e.page;
   e.size = { width, height: kHeights[width] };
   await page.setViewportSize(e.size);
@@ -85,7 +86,11 @@ test(
     await page.locator(".step").first().waitFor();
     await e.look("calibrate");
     for (const kind of ["Needle", "Palpation", "Search"]) {
-      await hand.check(page.getByRole("radio", { name: new RegExp(`^${kind}`) }));
+      const station = page.getByRole("radio", { name: new RegExp(`^${kind}`) });
+      const drawn = page.waitForResponse((r) => r.url().includes("/api/calibration?"));
+      if (await station.isChecked()) drawn.catch(() => {});
+      else await Promise.all([drawn, hand.check(station)]);
+      await page.waitForTimeout(300); // its steps are drawn
       const all = named("button", "Run all steps");
       await page.locator(".step").first().waitFor();
       if (!full && kind !== "Needle") continue;
@@ -98,6 +103,7 @@ test(
 
 test("three trainees are added", { skip, timeout: 120_000 }, async () => {
   await open("Trainees");
+  await named("button", "Add the trainee").waitFor();
   await e.look("nobody yet");
   for (const id of [anna, bert, carl]) {
     await hand.write(page.getByLabel("Pseudonym"), id);
@@ -194,6 +200,34 @@ test("every task is assessed; a trial is voided", { skip, timeout: 14 * kWhole }
   }
 });
 
+test(
+  "a trainee reads the own results on a telephone, by a PIN, and nothing else",
+  { skip: skip || (token ? false : "PALPA_CONSOLE_TOKEN is not set"), timeout: kWhole },
+  async () => {
+    await open("Trainees");
+    await hand.press(page.getByRole("link", { name: anna, exact: true }));
+    await hand.press(named("button", "Show a PIN for the trainee's own device"));
+    const pin = await page.locator(".pin").textContent();
+    await e.look("pin");
+    const telephone = await e.browser.newContext({ viewport: { width: 390, height: 844 } });
+    try {
+      const own = await e.newPage(telephone);
+      await own.goto(`${e.base}#/mine`);
+      await own.getByLabel("PIN").fill(pin);
+      await own.getByRole("button", { name: "Show my results" }).click();
+      await own.getByText(`Results of ${anna}`).waitFor();
+      assert.equal(await own.getByRole("link", { name: "Results", exact: true }).count(), 0);
+      await own.getByRole("button", { name: "Read" }).first().click();
+      await own.frameLocator("iframe.report").locator("h1").waitFor();
+      await e.look("own results", own);
+      const status = await own.evaluate(async () => (await fetch("/api/mine")).status);
+      assert.equal(status, 200);
+    } finally {
+      await telephone.close();
+    }
+  },
+);
+
 test("a debrief leads back to where one came from", { skip, timeout: kWhole }, async () => {
   await open("Results");
   await e.look("results");
@@ -255,13 +289,15 @@ test(
     timeout: 2 * kWhole,
   },
   async () => {
-    const all = await tasks();
-    await beginSession({ task: all[0] });
+    await beginSession({ task: "Palpation of the breast" }); // long enough
     e.away = true;
     execFileSync("bash", [begin, "--port", new URL(url).port]);
+    // Another console, another key: one enters again, and the session is on.
+    if (token) await e.enter(token);
     await page.waitForFunction(() => document.querySelector("#lost").hidden, null, {
       timeout: 60_000,
     });
+    if (token) await open("Session");
     await named("button", "Pause").waitFor({ timeout: 60_000 });
     await endSession(); // refused at first: the page's key is of the console before
     e.away = false;

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <string>
+
+#include "anatomy/base/error.h"
+#include "apps/console/routes.h"
+#include "apps/record/store/record_store.h"
+
+/// What trainees see on a device of their own: their sessions, each one's report, how they stand.
+/// Nothing of anybody else, nothing of a blind study, nothing that can be changed.
+namespace palpa::console {
+namespace {
+
+using nlohmann::json;
+
+/// Empty: nobody, or somebody who was deleted since.
+std::string whose(const Console& c, const httplib::Request& q) {
+  const std::string trainee = c.guard.own().traineeOf(q.get_header_value("Cookie"));
+  const bool known =
+      !trainee.empty() && record::RecordStore(c.place.records).trainee(trainee).has_value();
+  return known ? trainee : "";
+}
+
+bool isOwn(const json& session, const std::string& trainee) {
+  return session.value("trainee", "") == trainee && session["blind"] != true &&
+         session["state"] == "finished";
+}
+
+json mine(Console& c, const std::string& trainee) {
+  json sessions = json::array();
+  for (const json& one : c.sessions.list()) {
+    if (!isOwn(one, trainee)) continue;
+    json told;
+    for (const char* field :
+         {"id", "task", "title", "started_utc", "assessed", "simulated", "outcome"})
+      told[field] = one.value(field, json());
+    sessions.push_back(std::move(told));
+  }
+  return {{"trainee", trainee}, {"sessions", sessions}};
+}
+
+json newPin(Console& c, const std::string& trainee) {
+  if (!record::RecordStore(c.place.records).trainee(trainee))
+    throw UsageError("is not in the records", "trainee " + trainee, "Choose one from the list");
+  if (!c.guard.asksForToken())
+    throw UsageError("can be reached from this computer only", "this console",
+                     "Start it with --listen and --token-file");
+  return {{"pin", c.guard.own().pinFor(trainee)}, {"minutes", OwnDoor::kPinLasts.count()}};
+}
+
+void enterAsOneself(Console& c, const httplib::Request& q, httplib::Response& r) {
+  const json body = bodyOf(q);
+  const std::string key = c.guard.own().enter(q.remote_addr, body.value("pin", json()).is_string()
+                                                                 ? body["pin"].get<std::string>()
+                                                                 : std::string());
+  if (key.empty())
+    return refuse(r, 403,
+                  "that PIN opens nothing: it was used, or is older than ten minutes; after five "
+                  "wrong ones wait a minute");
+  r.set_header("Set-Cookie", "palpa-mine=" + key + "; HttpOnly; SameSite=Strict; Path=/");
+  answer(r, json::object());
+}
+
+}  // namespace
+
+void addOwnRoutes(WebServer& server, Console& c) {
+  server.Post(R"(/api/trainees/([A-Za-z0-9_-]{1,32})/pin)",
+              [&c](const httplib::Request& q, httplib::Response& r) {
+                bodyOf(q);
+                answer(r, newPin(c, q.matches[1]));
+              });
+  server.Post("/api/mine/enter",
+              [&c](const httplib::Request& q, httplib::Response& r) { enterAsOneself(c, q, r); });
+  server.Get("/api/mine", [&c](const httplib::Request& q, httplib::Response& r) {
+    const std::string trainee = whose(c, q);
+    if (trainee.empty()) return answer(r, {{"trainee", ""}, {"sessions", json::array()}});
+    answer(r, mine(c, trainee));
+  });
+  server.Get(R"(/api/mine/([A-Za-z0-9_-]{1,64})/file/report\.html)", [&c](const httplib::Request& q,
+                                                                          httplib::Response& r) {
+    const std::string trainee = whose(c, q);
+    if (trainee.empty() || !isOwn(c.sessions.one(q.matches[1]), trainee))
+      return refuse(r, 404, "is not one of your sessions");
+    sendFile(r, c.sessions.shown(q.matches[1]) / "report.html", "text/html; charset=utf-8");
+  });
+}
+
+}  // namespace palpa::console
