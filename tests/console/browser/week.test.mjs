@@ -297,7 +297,7 @@ test(
     await page.waitForFunction(() => document.querySelector("#lost").hidden, null, {
       timeout: 60_000,
     });
-    if (token) await open("Session");
+    await hand.press(page.locator("#nav-session")); // leads to the session that is on
     await named("button", "Pause").waitFor({ timeout: 60_000 });
     await endSession(); // refused at first: the page's key is of the console before
     e.away = false;
