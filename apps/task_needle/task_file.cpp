@@ -30,7 +30,8 @@ void readNames(const JsonFile& task, const std::string& group, std::array<std::s
 
 std::string TaskWords::of(Tissue t) const {
   const std::string& own = tissue[static_cast<std::size_t>(t)];
-  return own.empty() ? name(t) : own;
+  if (!own.empty()) return own;
+  return t == Tissue::connective ? "connective tissue" : name(t);
 }
 
 std::string TaskWords::of(Organ o) const {

@@ -2,20 +2,18 @@
 import { get, post, url } from "./api.js";
 import { h, put } from "./dom.js";
 import { moment, sessionOutcome, taskName } from "./format.js";
-import { badge, during, field, notice, simulatedBadge, table } from "./parts.js";
+import { badge, doorForm, notice, simulatedBadge, table } from "./parts.js";
 import { reportFrame } from "./report_frame.js";
 
 function door(draw) {
   const pin = h("input", {
-      type: "text",
-      inputmode: "numeric",
-      autocomplete: "one-time-code",
-      maxlength: "7", // with a space in the middle
-      required: true,
-    }),
-    said = h("div", { class: "said" }),
-    go = h("button", { type: "submit", class: "primary" }, "Show my results");
-  const enter = async () => {
+    type: "text",
+    inputmode: "numeric",
+    autocomplete: "one-time-code",
+    maxlength: "7", // with a space in the middle
+    required: true,
+  });
+  const work = async () => {
     const given = pin.value.replace(/\s/g, "");
     if (!/^\d{6}$/.test(given)) {
       pin.focus();
@@ -24,21 +22,14 @@ function door(draw) {
     await post("/api/mine/enter", { pin: given });
     await draw();
   };
-  return h(
-    "form",
-    {
-      class: "card narrow",
-      novalidate: true,
-      onsubmit: (e) => {
-        e.preventDefault();
-        during(go, said, enter);
-      },
-    },
-    h("p", {}, "Here you read your own results, and nobody else's."),
-    field("PIN", pin, "Your educator shows it to you. It opens once, within ten minutes."),
-    said,
-    h("div", { class: "row" }, go),
-  );
+  return doorForm({
+    about: "Here you read your own results, and nobody else's.",
+    label: "PIN",
+    control: pin,
+    hint: "Your educator shows it to you. It opens once, within ten minutes.",
+    go: "Show my results",
+    work,
+  });
 }
 
 function sessions(mine, read) {

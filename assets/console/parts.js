@@ -50,6 +50,27 @@ export async function during(pressed, said, work) {
 let serial = 0;
 export const newId = (stem) => `${stem}-${++serial}`;
 
+/** One thing to type, and a button that opens something. */
+export function doorForm({ about, label, control, hint, go, work }) {
+  const said = h("div", { class: "said" }),
+    button = h("button", { type: "submit", class: "primary" }, go);
+  return h(
+    "form",
+    {
+      class: "card narrow",
+      novalidate: true,
+      onsubmit: (e) => {
+        e.preventDefault();
+        during(button, said, work);
+      },
+    },
+    h("p", {}, about),
+    field(label, control, hint),
+    said,
+    h("div", { class: "row" }, button),
+  );
+}
+
 /** Label, control, explanation, tied together. */
 export function field(label, control, hint) {
   const id = control.id || newId("field");

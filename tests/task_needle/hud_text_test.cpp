@@ -76,6 +76,9 @@ TEST(HudText, CallsThingsByTheTasksWords) {
   tool.tissue = Tissue::fat;
   tool.depth = 0.0093;
   EXPECT_EQ(hudText(status, tool, "", "").depth, "9 mm inserted, in fat");
+  tool.tissue = Tissue::connective;
+  EXPECT_EQ(hudText(status, tool, "", "").depth, "9 mm inserted, in connective tissue");
+  tool.tissue = Tissue::fat;
   TaskWords words;
   words.tissue[static_cast<std::size_t>(Tissue::fat)] = "cancellous bone";
   words.organ[static_cast<std::size_t>(Organ::skin)] = "bone";
