@@ -35,7 +35,7 @@ std::map<Edge, Edge> pieces(const TriangleMesh& mesh, const std::vector<double>&
       (offset[a] < 0 ? up : down) = edgeOf(a, b);
       cut = true;
     }
-    if (cut) next.emplace(down, up);
+    if (cut && down != up) next.emplace(down, up);  // a sliver joins an edge to itself
   }
   return next;
 }

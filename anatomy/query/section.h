@@ -30,8 +30,9 @@ struct SectionLine {
   std::vector<Eigen::Vector2d> points;
 };
 
-/// Every line in which the plane cuts this surface; exact for its triangles. Points of the mesh at
-/// the same place are one; a corner in the plane counts as above it.
+/// Every line in which the plane cuts this surface, each edge of which two triangles share at most;
+/// exact for its triangles. Points of the mesh at the same place are one; a corner in the plane
+/// counts as above it.
 std::vector<SectionLine> sectionOf(const OrganSurface& organ, const SectionPlane& plane);
 
 }  // namespace palpa::anatomy

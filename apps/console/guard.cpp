@@ -84,7 +84,7 @@ bool isOpen(const GuardedRequest& asked) {
   const bool own = asked.method == "GET" && asked.path.find("..") == std::string::npos &&
                    (asked.path == "/api/mine" || asked.path.rfind("/api/mine/", 0) == 0);
   return isPage(asked) || own || asked.path == "/api/me" || asked.path == "/api/enter" ||
-         asked.path == "/api/mine/enter";
+         asked.path == "/api/mine/enter" || asked.path == "/api/mine/leave";
 }
 
 }  // namespace

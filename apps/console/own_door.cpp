@@ -35,7 +35,7 @@ std::string cookieNamed(const std::string& name, const std::string& cookies) {
 }
 
 void OwnDoor::dropOld(std::map<std::string, Given>* given) {
-  std::erase_if(*given, [](const auto& one) { return Clock::now() > one.second.until; });
+  std::erase_if(*given, [](const auto& one) { return Clock::now() >= one.second.until; });
 }
 
 std::string OwnDoor::pinFor(const std::string& trainee) {
@@ -44,7 +44,7 @@ std::string OwnDoor::pinFor(const std::string& trainee) {
   std::erase_if(pins_, [&](const auto& one) { return one.second.trainee == trainee; });
   std::string pin = sixDigits();
   while (pins_.contains(pin)) pin = sixDigits();
-  pins_[pin] = {trainee, Clock::now() + kPinLasts};
+  pins_[pin] = {trainee, Clock::now() + pin_lasts_};
   return pin;
 }
 
@@ -56,18 +56,25 @@ std::string OwnDoor::enter(const std::string& remote, const std::string& pin) {
   const auto found = pins_.find(pin);
   if (found == pins_.end()) {
     wrong_.note(remote);
+    wrong_anywhere_.note("");
+    if (wrong_anywhere_.tooMany("")) pins_.clear();
     return "";
   }
   const std::string key = randomKey();
-  keys_[key] = {found->second.trainee, Clock::now() + kKeyLasts};
+  keys_[key] = {found->second.trainee, Clock::now() + key_lasts_};
   pins_.erase(found);
   return key;
+}
+
+void OwnDoor::leave(const std::string& cookies) {
+  const std::lock_guard lock(mutex_);
+  keys_.erase(cookieNamed("palpa-mine", cookies));
 }
 
 std::string OwnDoor::traineeOf(const std::string& cookies) const {
   const std::lock_guard lock(mutex_);
   const auto found = keys_.find(cookieNamed("palpa-mine", cookies));
-  return found == keys_.end() || Clock::now() > found->second.until ? "" : found->second.trainee;
+  return found == keys_.end() || Clock::now() >= found->second.until ? "" : found->second.trainee;
 }
 
 }  // namespace palpa::console

@@ -11,13 +11,18 @@
 namespace palpa::console {
 
 /// Lets trainees see their own results on a device of their own: the educator shows somebody a PIN,
-/// who types it there. A PIN is a million to one, opens once, within ten minutes; five wrong ones
-/// from one address, and it waits a minute. What it opens ends after twelve hours, or with the
-/// console. Any thread.
+/// who types it there. A PIN is a million to one, opens once, within ten minutes; after five wrong
+/// ones an address waits a minute, after fifty from anywhere within ten minutes no PIN that was
+/// shown opens any more. What it opens ends after twelve hours, with the console, or when its owner
+/// leaves. Any thread.
 class OwnDoor {
  public:
   static constexpr std::chrono::minutes kPinLasts{10};
   static constexpr std::chrono::hours kKeyLasts{12};
+
+  OwnDoor() = default;
+  OwnDoor(std::chrono::milliseconds pin_lasts, std::chrono::milliseconds key_lasts)
+      : pin_lasts_(pin_lasts), key_lasts_(key_lasts) {}
 
   /// Six digits. One that was shown before for the same person opens no more.
   std::string pinFor(const std::string& trainee);
@@ -26,6 +31,7 @@ class OwnDoor {
   std::string enter(const std::string& remote, const std::string& pin);
   /// Whose key a request's cookies hold; empty: nobody's.
   std::string traineeOf(const std::string& cookies) const;
+  void leave(const std::string& cookies);
 
  private:
   using Clock = runtime::ServingClock;
@@ -35,9 +41,10 @@ class OwnDoor {
   };
   static void dropOld(std::map<std::string, Given>* given);
 
+  const std::chrono::milliseconds pin_lasts_ = kPinLasts, key_lasts_ = kKeyLasts;
   mutable std::mutex mutex_;
   std::map<std::string, Given> pins_, keys_;
-  Tries wrong_{5, std::chrono::seconds(60)};
+  Tries wrong_{5, std::chrono::seconds(60)}, wrong_anywhere_{50, std::chrono::seconds(600)};
 };
 
 /// The value of a cookie among all that a request sends; empty: there is none.

@@ -6,7 +6,7 @@
 #include "apps/record/store/record_store.h"
 
 /// What trainees see on a device of their own: their sessions, each one's report, how they stand.
-/// Nothing of anybody else, nothing of a blind study, nothing that can be changed.
+/// Nothing of anybody else, nothing of a study, nothing that can be changed.
 namespace palpa::console {
 namespace {
 
@@ -20,8 +20,9 @@ std::string whose(const Console& c, const httplib::Request& q) {
   return known ? trainee : "";
 }
 
+/// Of a study nothing: its report could tell a trainee what was drawn.
 bool isOwn(const json& session, const std::string& trainee) {
-  return session.value("trainee", "") == trainee && session["blind"] != true &&
+  return session.value("trainee", "") == trainee && session["study"] != true &&
          session["state"] == "finished";
 }
 
@@ -36,6 +37,13 @@ json mine(Console& c, const std::string& trainee) {
     sessions.push_back(std::move(told));
   }
   return {{"trainee", trainee}, {"sessions", sessions}};
+}
+
+bool hasOwn(Console& c, const std::string& trainee, const std::string& id) {
+  const json all = c.sessions.list();
+  return !trainee.empty() && std::any_of(all.begin(), all.end(), [&](const json& one) {
+    return one["id"] == id && isOwn(one, trainee);
+  });
 }
 
 json newPin(Console& c, const std::string& trainee) {
@@ -70,6 +78,11 @@ void addOwnRoutes(WebServer& server, Console& c) {
               });
   server.Post("/api/mine/enter",
               [&c](const httplib::Request& q, httplib::Response& r) { enterAsOneself(c, q, r); });
+  server.Post("/api/mine/leave", [&c](const httplib::Request& q, httplib::Response& r) {
+    c.guard.own().leave(q.get_header_value("Cookie"));
+    r.set_header("Set-Cookie", "palpa-mine=; HttpOnly; SameSite=Strict; Path=/; Max-Age=0");
+    answer(r, json::object());
+  });
   server.Get("/api/mine", [&c](const httplib::Request& q, httplib::Response& r) {
     const std::string trainee = whose(c, q);
     if (trainee.empty()) return answer(r, {{"trainee", ""}, {"sessions", json::array()}});
@@ -77,9 +90,7 @@ void addOwnRoutes(WebServer& server, Console& c) {
   });
   server.Get(R"(/api/mine/([A-Za-z0-9_-]{1,64})/file/report\.html)", [&c](const httplib::Request& q,
                                                                           httplib::Response& r) {
-    const std::string trainee = whose(c, q);
-    if (trainee.empty() || !isOwn(c.sessions.one(q.matches[1]), trainee))
-      return refuse(r, 404, "is not one of your sessions");
+    if (!hasOwn(c, whose(c, q), q.matches[1])) return refuse(r, 404, "is not one of your sessions");
     sendFile(r, c.sessions.shown(q.matches[1]) / "report.html", "text/html; charset=utf-8");
   });
 }

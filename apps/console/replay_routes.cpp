@@ -143,8 +143,8 @@ json toldOf(const record::SessionReader& reader, const record::RecordedTrial& tr
   return told;
 }
 
-/// The trials read last: a page asks each second while pictures are drawn, and what is over changes
-/// no more.
+/// The trials read last: a page asks again and again while pictures are drawn, and what is over
+/// changes no more.
 class ReadTrials {
  public:
   json of(const Recorded& where, int number, const live::ToneOf& tone) {
@@ -175,7 +175,8 @@ json replay(Console& c, ReadTrials& read, const std::string& id, int number, boo
       link && !link->wait(0, std::chrono::milliseconds(0)).over)
     throw UsageError("is still running", "the session",
                      "Its trials can be seen again when it is over");
-  json told = all ? read.of(where, number, c.tone) : json::object();
+  json told = read.of(where, number, c.tone);  // refuses a trial that is not there
+  if (!all) told = json::object();
   drawPictures(c, where, number, &told);
   return told;
 }

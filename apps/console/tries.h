@@ -18,7 +18,7 @@ class Tries {
   Tries(std::size_t most, std::chrono::seconds within) : most_(most), within_(within) {}
 
   bool tooMany(const std::string& remote) {
-    if (times_.size() > kMostRemotes) times_.clear();
+    if (times_.size() > kMostRemotes) times_.erase(times_.begin());
     std::deque<Clock::time_point>& times = times_[remote];
     while (!times.empty() && Clock::now() - times.front() > within_) times.pop_front();
     return times.size() >= most_;

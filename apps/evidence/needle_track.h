@@ -9,7 +9,7 @@ namespace palpa::evidence {
 
 /// Where the needle was in a trial, for pictures that move: {"views": [...], "t_s": [...]} with, of
 /// each view, what it cuts, what is taught there and, at each of these times, in mm, the needle's
-/// tip (from in front), tip and shaft (from the side), aim (at the vein); null where it cannot be
+/// tip (from in front), tip and shaft (in section), aim (at the vein); null where it cannot be
 /// seen there.
 nlohmann::json needleTrack(const assess::NeedleViews& views, const NeedleSamples& samples);
 

@@ -140,8 +140,9 @@ bool isHeld(const fs::path& folder) {
 
 void requireNotRunning(const fs::path& folder) {
   if (!runtime::comesTrue(runtime::kKilledLetsGo, [&] { return !isHeld(folder); }))
-    throw UsageError("is still running, or is being finished", folder.string(),
-                     "Wait until it is over; Escape or Ctrl-C ends a session with its report");
+    throw UsageError(
+        "is still running, or is being finished", folder.string(),
+        "Wait until it is over; Escape twice, or Ctrl-C, ends a session with its report");
 }
 
 /// Those whose files are there.

@@ -80,6 +80,7 @@ void TrialTask::reportLoad(std::int64_t now_ns) {
 }
 
 void TrialTask::startTrial(std::int64_t now_ns) {
+  asked_to_leave_ns_ = -1;
   ++status_.trial;
   status_.state = TrialState::running;
   status_.elapsed_s = 0;
@@ -96,6 +97,7 @@ void TrialTask::startTrial(std::int64_t now_ns) {
 
 /// It ends with the last tick that was judged; one that was ended before its first, as it began.
 void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_t now_ns) {
+  asked_to_leave_ns_ = -1;
   reportLoad(now_ns);
   const Conclusion end = conclude(outcome, reason);
   const std::string& name = training::nameOf(outcome);
@@ -238,15 +240,18 @@ bool TrialTask::isMeant(const UserRequest& request, std::int64_t now_ns) {
 }
 
 /// A slip of the finger costs no trial: one that is on is paused, and ends when it is asked for
-/// again.
+/// again, a second later at least (a key that is held repeats itself).
 void TrialTask::escape(std::int64_t now_ns) {
-  if (!status_.active() || asked_to_leave_)
-    return apply(UserRequest{UserCommand::quit, ""}, now_ns);
+  const bool asked = asked_to_leave_ns_ >= 0;
+  if (asked && now_ns - asked_to_leave_ns_ < runtime::kSecond) return;
+  if (!status_.active() || asked) return apply(UserRequest{UserCommand::quit, ""}, now_ns);
+  const std::string before =
+      status_.state == TrialState::running ? "Enter continues" : status_.notice;
   apply(UserRequest{UserCommand::pause, ""}, now_ns);
-  asked_to_leave_ = true;
+  asked_to_leave_ns_ = now_ns;
   status_.notice = std::string("Escape again ends the session: this trial ") +
                    (training::inAssessment(status_.role) ? "counts as aborted" : "does not count") +
-                   ". Enter continues";
+                   ". " + before;
 }
 
 /// In practice nobody's failure; from an examination one does not slip away.
@@ -257,7 +262,7 @@ void TrialTask::leave(const std::string& reason, std::int64_t now_ns) {
 }
 
 void TrialTask::goOn(std::int64_t now_ns) {
-  asked_to_leave_ = false;
+  asked_to_leave_ns_ = -1;
   if (status_.state == TrialState::ended && stays_ && status_.trial >= status_.trials)
     since_ns_ = now_ns - kReading;
   if (status_.emergency_stop) return;  // only re-arming goes on from here
@@ -286,6 +291,7 @@ void TrialTask::stopAll(std::int64_t now_ns) {
 }
 
 void TrialTask::rearm(std::int64_t now_ns) {
+  asked_to_leave_ns_ = -1;
   bus_.stop.rearm(presses_seen_);
   status_.emergency_stop = status_.alarm = false;
   if (status_.state == TrialState::running)

@@ -129,7 +129,8 @@ class TrialTask : public runtime::Activity {
   std::int64_t start_ns_ = 0;         ///< of the trial
   int pictures_ = 0;                  ///< asked for so far
   std::int64_t now_ns_ = 0;           ///< of this step
-  bool quit_ = false, asked_to_leave_ = false;
+  bool quit_ = false;
+  std::int64_t asked_to_leave_ns_ = -1;  ///< by Escape; -1: not, or taken back since
   std::string moved_;
 };
 

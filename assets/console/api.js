@@ -99,9 +99,10 @@ async function answerOf(response) {
  * the door. True when the page key is another one.
  */
 async function renewed(path) {
-  if (path === "/api/me" || path === "/api/enter" || path.startsWith("/api/mine")) return false;
+  if (path === "/api/me" || path === "/api/enter") return false;
   const before = pageKey;
   const now = await me(true);
+  if (path.startsWith("/api/mine")) return pageKey !== before; // a trainee's need no token
   if (!now.entered) location.hash = "#/enter";
   return now.entered && pageKey !== before;
 }

@@ -1,4 +1,4 @@
-// Where the needle is, in three pictures beside the film: from in front, from the side, and what it
+// Where the needle is, in three pictures beside the film: from in front, in section, and what it
 // is aimed at. They follow the time of the replay.
 import { get, url } from "./api.js";
 import { h, svg } from "./dom.js";

@@ -2,7 +2,7 @@
 import { get, post, url } from "./api.js";
 import { h, put } from "./dom.js";
 import { moment, sessionOutcome, taskName } from "./format.js";
-import { badge, doorForm, notice, simulatedBadge, table } from "./parts.js";
+import { badge, button, doorForm, notice, simulatedBadge, table } from "./parts.js";
 import { reportFrame } from "./report_frame.js";
 
 function door(draw) {
@@ -63,10 +63,11 @@ function sessions(mine, read) {
   );
 }
 
-export async function show({ root, open }) {
+export async function show({ root, life, open }) {
   open("My results");
   const place = h("div", {}),
     report = h("div", {});
+  let follows = false;
   root.append(place, report);
   const read = (s) => {
     put(
@@ -82,9 +83,35 @@ export async function show({ root, open }) {
     put(
       place,
       mine.trainee
-        ? [h("p", { class: "lead" }, `Results of ${mine.trainee}`), sessions(mine, read)]
+        ? [
+            h(
+              "div",
+              { class: "row between" },
+              h("p", { class: "lead" }, `Results of ${mine.trainee}`),
+              button("Leave", leave),
+            ),
+            sessions(mine, read),
+          ]
         : door(draw),
     );
+    if (!follows && mine.sessions.some((one) => !one.outcome)) follow();
+  };
+  const leave = async () => {
+    await post("/api/mine/leave", {});
+    put(report);
+    await draw();
+  };
+  // What came of a session is read one after the other.
+  const follow = () => {
+    follows = true;
+    let tries = 0;
+    life.every(2000, async () => {
+      if (report.firstChild || ++tries > 30) return false;
+      const { sessions: own } = await get("/api/mine");
+      if (own.some((one) => !one.outcome)) return true;
+      await draw();
+      return false;
+    });
   };
   await draw();
 }

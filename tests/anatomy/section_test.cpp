@@ -79,6 +79,17 @@ TEST(Section, IsNotPartedByASeam) {
   EXPECT_EQ(lines[0].points.size(), whole[0].points.size());
 }
 
+TEST(Section, IsNotPartedByASliver) {
+  OrganSurface slivered = tetrahedron();
+  TriangleMesh& mesh = slivered.mesh;
+  mesh.points.push_back(mesh.points[0]);  // a corner twice, and triangles that are edges
+  mesh.triangles.insert(mesh.triangles.begin(), {{0, 4, 3}, {3, 4, 0}});
+  const auto lines = sectionOf(slivered, {{0, 0, 0.5}, Vec3::UnitX(), Vec3::UnitY()});
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_TRUE(lines[0].closed);
+  EXPECT_EQ(lines[0].points.size(), 3u);
+}
+
 TEST(Section, OfAnOpenSurfaceHasEnds) {
   OrganSurface one = tetrahedron();
   one.mesh.triangles.resize(1);
@@ -89,7 +100,7 @@ TEST(Section, OfAnOpenSurfaceHasEnds) {
   EXPECT_NEAR((lines[0].points[0] - lines[0].points[1]).norm(), 0.75, 1e-12);
 }
 
-/// Of a whole patient every line is closed, and a vein that is cut across is as wide as it is.
+/// Of a whole patient every line is closed.
 TEST(Section, OfAPatientIsClosed) {
   const Patient& patient = referencePatient();
   const Vec3& target = patient.landmark(landmark::kVeinTarget);

@@ -39,6 +39,29 @@ TEST(OwnDoor, WhoGuessesIsMadeToWaitAndOthersAreNot) {
   EXPECT_NE(door.enter("10.0.0.7", pin), "");
 }
 
+TEST(OwnDoor, FiftyWrongOnesFromAnywhereEndEveryPin) {
+  OwnDoor door;
+  const std::string pin = door.pinFor("T001");
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(door.enter("10.0.1." + std::to_string(i), "nonsense"), "");
+  EXPECT_EQ(door.enter("10.0.0.7", pin), "");
+}
+
+TEST(OwnDoor, WhatIsTooOldOpensNothing) {
+  using namespace std::chrono_literals;
+  OwnDoor old_pins(0ms, OwnDoor::kKeyLasts), old_keys(OwnDoor::kPinLasts, 0ms);
+  EXPECT_EQ(old_pins.enter("10.0.0.7", old_pins.pinFor("T001")), "");
+  const std::string key = old_keys.enter("10.0.0.7", old_keys.pinFor("T001"));
+  ASSERT_FALSE(key.empty());
+  EXPECT_EQ(old_keys.traineeOf(cookieOf(key)), "");
+}
+
+TEST(OwnDoor, WhoLeavesIsOutside) {
+  OwnDoor door;
+  const std::string key = door.enter("10.0.0.7", door.pinFor("T001"));
+  door.leave(cookieOf(key));
+  EXPECT_EQ(door.traineeOf(cookieOf(key)), "");
+}
+
 TEST(OwnDoor, NobodysCookieIsNobody) {
   OwnDoor door;
   const std::string key = door.enter("10.0.0.7", door.pinFor("T001"));

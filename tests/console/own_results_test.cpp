@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 constexpr char kToken[] = "the educator's token";
 
 void leaveSession(const fs::path& home, const std::string& id, const std::string& trainee,
-                  bool blind) {
+                  bool study) {
   const fs::path folder = home / "sessions" / id;
   fs::create_directories(folder);
   std::ofstream(folder / "console.json") << json{{"task", "paracentesis"},
@@ -23,8 +23,8 @@ void leaveSession(const fs::path& home, const std::string& id, const std::string
                                                  {"started_utc", "2026-11-30T10:00:00Z"},
                                                  {"assessed", false},
                                                  {"simulated", false},
-                                                 {"study", blind},
-                                                 {"blind", blind},
+                                                 {"study", study},
+                                                 {"blind", false},
                                                  {"trials", 1},
                                                  {"pid", 0}};
   std::ofstream(folder / "report.html") << "report of " << trainee << " in " << id;
@@ -92,17 +92,19 @@ TEST_F(OwnResults, AreReadByAPinAndNobodyElsesAre) {
             200);
   const json mine = json::parse(trainee.get("/api/mine")->body);
   EXPECT_EQ(mine["trainee"], "T017");
-  ASSERT_EQ(mine["sessions"].size(), 1u) << "not the blind one, not anybody else's";
+  ASSERT_EQ(mine["sessions"].size(), 1u) << "not the study's, not anybody else's";
   EXPECT_EQ(mine["sessions"][0]["id"], "A1");
   EXPECT_EQ(mine["sessions"][0]["title"], "Access to the subclavian vein");
 
   const auto report = trainee.get("/api/mine/A1/file/report.html");
   EXPECT_EQ(report->body, "report of T017 in A1");
   EXPECT_EQ(report->get_header_value("Content-Security-Policy").rfind("sandbox", 0), 0u);
-  for (const char* path : {"/api/mine/A2/file/report.html", "/api/mine/A3/file/report.html"})
+  for (const char* path : {"/api/mine/A2/file/report.html", "/api/mine/A3/file/report.html",
+                           "/api/mine/nobodys/file/report.html"})
     EXPECT_EQ(trainee.get(path)->status, 404) << path;
   for (const char* path : {"/api/sessions", "/api/sessions/A1/file/report.html", "/api/trainees"})
     EXPECT_EQ(trainee.get(path)->status, 401) << path;
+  EXPECT_EQ(trainee.post("/api/mine/leave", json::object())->status, 200);
 }
 
 TEST_F(OwnResults, AreNotShownOfWhoIsInTheRecordsNoMore) {

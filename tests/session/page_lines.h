@@ -12,7 +12,8 @@ namespace palpa::test {
 
 /// Each element's words are a line of their own; drawings are left out.
 inline std::vector<std::string> linesOf(std::string html) {
-  for (std::size_t from; (from = html.find("<svg")) != std::string::npos;)
+  // The last one first, for one may lie within another.
+  for (std::size_t from; (from = html.rfind("<svg")) != std::string::npos;)
     html.erase(from, html.find("</svg>", from) + 6 - from);
   std::string text = std::regex_replace(html, std::regex("<[^>]*>"), "\n");
   for (const auto& [entity, sign] :

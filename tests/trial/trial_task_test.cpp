@@ -122,24 +122,45 @@ TEST_F(Rehearsing, TheLastResultStaysUntilItIsClosed) {
 }
 
 TEST_F(Rehearsing, OneSlipOnEscapeCostsNoTrial) {
+  const auto press = [&](UserCommand command) {
+    channels.requests_to_task.push({command, ""});
+    step();
+  };
   run(210);
-  channels.requests_to_task.push({UserCommand::start, ""});
-  step();
-  channels.requests_to_task.push({UserCommand::escape, ""});
-  step();
+  press(UserCommand::start);
+  press(UserCommand::escape);
+  press(UserCommand::escape);  // held: it repeats itself
   EXPECT_EQ(task.state(), TrialState::paused);
   EXPECT_FALSE(task.quit());
   EXPECT_EQ(task.notice(),
             "Escape again ends the session: this trial does not count. Enter continues");
+  run(100);
+  press(UserCommand::start);
+  EXPECT_EQ(task.state(), TrialState::running);
+  press(UserCommand::escape);
+  EXPECT_FALSE(task.quit()) << "it was taken back";
+  run(100);
+  press(UserCommand::escape);
+  EXPECT_TRUE(task.quit());
+}
+
+TEST_F(Rehearsing, EscapeHidesNoEmergencyStopAndReArmingTakesItBack) {
+  run(210);
   channels.requests_to_task.push({UserCommand::start, ""});
   step();
-  EXPECT_EQ(task.state(), TrialState::running);
+  bus.stop.press();
+  run(2);
+  const std::string stopped = task.notice();
+  ASSERT_EQ(stopped.rfind("EMERGENCY STOP", 0), 0u);
   channels.requests_to_task.push({UserCommand::escape, ""});
   step();
-  EXPECT_FALSE(task.quit()) << "it was taken back";
+  EXPECT_NE(task.notice().find(stopped), std::string::npos);
+  run(100);
+  channels.requests_to_task.push({UserCommand::rearm, ""});
+  step();
   channels.requests_to_task.push({UserCommand::escape, ""});
   step();
-  EXPECT_TRUE(task.quit());
+  EXPECT_FALSE(task.quit());
 }
 
 TEST_F(Rehearsing, EscapeLeavesAtOnceWhereNoTrialIsOn) {

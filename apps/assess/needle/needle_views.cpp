@@ -112,8 +112,10 @@ NeedleViews needleViewsOf(const anatomy::Patient& patient, const calibration::Ta
              way = (frame.pointToA(path.line_to_L) - views.entry_A).normalized();
   const Vector2d corner(kAround, kAround);
 
-  name(&views.skin, "Entry, from in front", "middle", "head");
-  views.skin.plane = {views.entry_A, medial, cephalad};
+  // A picture's normal points to who looks at it: from in front; and for the vein from the needle.
+  const Vec3 right = cephalad.cross(out).normalized();
+  name(&views.skin, "Entry, from in front", right.dot(medial) > 0 ? "middle" : "shoulder", "head");
+  views.skin.plane = {views.entry_A, right, out.cross(right)};
   views.skin.low = -corner;
   views.skin.high = corner;
   SectionPlane bones = views.skin.plane;
@@ -121,18 +123,18 @@ NeedleViews needleViewsOf(const anatomy::Patient& patient, const calibration::Ta
       (patient.landmark(anatomy::landmark::kMedialThird) - bones.origin_A).dot(out) * out;
   cut(patient, bones, isBone, &views.skin);
 
-  name(&views.way, "The way, from the side", "along the way", "front");
+  name(&views.way, "The way, in section", "along the way", "front");
   views.way.plane = {views.entry_A, across(way, out), out};
   const Vector2d end = views.way.plane.at(views.target_A);
   views.way.low = Vector2d(-kBehind, std::min(end.y(), 0.0) - kBeyond);
   views.way.high = Vector2d(end.x() + kBeyond, kOutside);
   cut(patient, views.way.plane, isAnything, &views.way);
 
-  name(&views.vein, "The vein, as the needle sees it", "head", "front");
   const Vec3 direction = frame.vectorToA(path.direction_L).normalized(),
-             head = across(cephalad, direction);
-  const Vec3 up = direction.cross(head);
-  views.vein.plane = {views.target_A, head, up.dot(out) < 0 ? Vec3(-up) : up};
+             up = across(out, direction), rightward = direction.cross(up);
+  name(&views.vein, "The vein, as the needle sees it",
+       rightward.dot(cephalad) > 0 ? "head" : "feet", "front");
+  views.vein.plane = {views.target_A, rightward, up};
   views.vein.low = -corner;
   views.vein.high = corner;
   cut(patient, views.vein.plane, isAnything, &views.vein);

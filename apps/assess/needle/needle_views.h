@@ -24,27 +24,28 @@ struct NeedleView {
   anatomy::SectionPlane plane;
   Eigen::Vector2d low{0, 0}, high{0, 0};       ///< the corners that are shown, (u, v), m
   std::vector<anatomy::SectionLine> cut = {};  ///< no more than reaches into what is shown
-  /// Each organ once, but the skin: in the widest place of what is shown of it, or below what is
-  /// too small.
+  /// Each organ once, but the skin: in the widest place of the first of its lines, or below one
+  /// that is too small.
   std::vector<OrganName> names = {};
 };
 
 /// Where a trial's needle went, as a teacher would draw it on the board: from in front, from the
 /// side, and as the needle sees it.
 struct NeedleViews {
-  /// From in front, at the taught entry: across toward the middle of the body, up toward the head;
-  /// the bones are cut at the depth of the clavicle's axis.
+  /// From in front, at the taught entry: up toward the head; the bones are cut at the depth
+  /// of the clavicle's axis.
   NeedleView skin;
   /// Through the taught way to the vein and straight back from the entry: across along the way, up
   /// toward the front.
   NeedleView way;
-  /// Square to the taught direction, at the vein: across toward the head, up toward the front.
+  /// Square to the taught direction, at the vein, as whoever looks along the needle sees it: up
+  /// toward the front.
   NeedleView vein;
   Vec3 entry_A = Vec3::Zero(), target_A = Vec3::Zero();  ///< taught; of the vein its middle line
   double entry_acceptable = 0;                           ///< m, by which experts vary; 0: not known
 };
 
-/// On this patient. Throws Error where a landmark or the skin is missing.
+/// On this patient. Throws Error where a landmark is missing.
 NeedleViews needleViewsOf(const anatomy::Patient& patient, const calibration::TaughtPath& path);
 
 /// One pass of the needle through the skin.

@@ -49,7 +49,7 @@ void writeCompetence(Html& html, const TrialPage& page);
 
 std::string_view competenceStyle();
 
-/// Where each pass went in, its way from the side, and what it was aimed at.
+/// Where each pass went in, its way in section, and what it was aimed at.
 void writeTrack(Html& html, const assess::NeedleViews& views,
                 const std::vector<assess::TrialSample>& samples);
 std::string_view trackStyle();
