@@ -60,7 +60,7 @@ std::string OwnDoor::enter(const std::string& remote, const std::string& pin) {
     if (wrong_anywhere_.tooMany("")) pins_.clear();
     return "";
   }
-  const std::string key = randomKey();
+  std::string key = randomKey();
   keys_[key] = {found->second.trainee, Clock::now() + key_lasts_};
   pins_.erase(found);
   return key;
