@@ -5,6 +5,12 @@ import { day, isOn, moment, sessionState, taskName } from "./format.js";
 import { badge, button, facts, notice, table } from "./parts.js";
 import { awaitReport } from "./report_frame.js";
 
+/** Where a device in the room opens it: at the station itself the page's address would mislead. */
+const forOthers = () =>
+  /^(127\.|localhost$|\[::1\]$)/.test(location.hostname)
+    ? "the address by which tablets reach this console, with /#/mine at its end,"
+    : `${location.origin}/#/mine`;
+
 /** A PIN by which the trainee reads these results on a device of his or her own. */
 function ownDevice(id) {
   const shown = h("div", { role: "status" });
@@ -16,7 +22,7 @@ function ownDevice(id) {
       h(
         "p",
         { class: "hint" },
-        `On the trainee's own device, open ${location.origin}/#/mine and type this PIN. ` +
+        `On the trainee's own device, open ${forOthers()} and type this PIN. ` +
           `It opens once, within ${minutes} minutes, and shows the results of ${id} only.`,
       ),
     );
