@@ -147,8 +147,9 @@ vtkSmartPointer<vtkPolyData> silhouetteShape(const InstrumentSize& size) {
 
 namespace {
 
-void dress(vtkActor& actor, const vtkSmartPointer<vtkPolyData>& mesh, double specular,
-           vtkSmartPointer<vtkPolyDataMapper> mapper = vtkSmartPointer<vtkPolyDataMapper>::New()) {
+void dress(
+    vtkActor& actor, const vtkSmartPointer<vtkPolyData>& mesh, double specular,
+    const vtkSmartPointer<vtkPolyDataMapper>& mapper = vtkSmartPointer<vtkPolyDataMapper>::New()) {
   mapper->SetInputData(mesh);
   actor.SetMapper(mapper);
   actor.GetProperty()->SetAmbient(0.22);

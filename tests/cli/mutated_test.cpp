@@ -135,7 +135,7 @@ class MutatedFile : public testing::TestWithParam<ReadBy> {
   /// The program's data, in which the file is another.
   fs::path dataWith(const std::string& bytes) const {
     const bool is_shipped = std::string(GetParam().file).rfind("own/", 0) != 0;
-    const fs::path file = is_shipped ? data_ / GetParam().file : here / GetParam().file;
+    fs::path file = is_shipped ? data_ / GetParam().file : here / GetParam().file;
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }

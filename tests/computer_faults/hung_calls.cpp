@@ -18,7 +18,7 @@ namespace palpa::test {
 namespace {
 
 template <class Function>
-Function* original(const char* name) {
+Function* realCall(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
@@ -106,39 +106,41 @@ void waitWhileHung(const char* kind) noexcept {
 
 }  // namespace palpa::test
 
-using palpa::test::original;
+using palpa::test::realCall;
 using palpa::test::waitWhileHung;
 
 extern "C" {
 
 ssize_t recv(int socket, void* bytes, size_t size, int flags) {
-  static auto* real = original<ssize_t(int, void*, size_t, int)>("recv");
+  static auto* real = realCall<ssize_t(int, void*, size_t, int)>("recv");
   waitWhileHung(socket);
   return real(socket, bytes, size, flags);
 }
 
-/// What `recv` is where the buffer's size is known.
+/// What `recv` is where the buffer's size is known: the C library's name for it.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
 ssize_t __recv_chk(int socket, void* bytes, size_t size, size_t, int flags) {
   return recv(socket, bytes, size, flags);
 }
 
 ssize_t send(int socket, const void* bytes, size_t size, int flags) {
-  static auto* real = original<ssize_t(int, const void*, size_t, int)>("send");
+  static auto* real = realCall<ssize_t(int, const void*, size_t, int)>("send");
   waitWhileHung(socket);
   return real(socket, bytes, size, flags);
 }
 
 int accept4(int socket, sockaddr* address, socklen_t* size, int flags) {
-  static auto* real = original<int(int, sockaddr*, socklen_t*, int)>("accept4");
+  static auto* real = realCall<int(int, sockaddr*, socklen_t*, int)>("accept4");
   waitWhileHung(socket);
   return real(socket, address, size, flags);
 }
 
 ssize_t read(int file, void* bytes, size_t size) {
-  static auto* real = original<ssize_t(int, void*, size_t)>("read");
+  static auto* real = realCall<ssize_t(int, void*, size_t)>("read");
   waitWhileHung(file);
   return real(file, bytes, size);
 }
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
 ssize_t __read_chk(int file, void* bytes, size_t size, size_t) { return read(file, bytes, size); }
 }

@@ -91,7 +91,7 @@ class KeptFiles : public testing::Test {
  protected:
   /// Written so many minutes ago.
   std::filesystem::path put(const std::string& name, std::size_t bytes, int minutes) const {
-    const std::filesystem::path file = here_.path() / name;
+    std::filesystem::path file = here_.path() / name;
     std::ofstream(file) << std::string(bytes, 'x');
     std::filesystem::last_write_time(
         file, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(minutes));

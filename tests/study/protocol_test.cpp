@@ -195,7 +195,7 @@ TEST(Protocol, ATaskOfAnUnknownEngineIsRefused) {
 
 TEST(Protocol, TheLongestTimeIsToldAndBounded) {
   const auto slow = [](const json& protocol) {
-    const auto file = written(protocol);
+    auto file = written(protocol);
     std::ofstream(file.parent_path() / "task.json")
         << R"({"version": 1, "engine": "needle", "end": {"time_limit_s": 3600}})";
     return file;

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kRemedy = "The shipped forms in assets/checklists show how it is written";
 
 JsonFile formIn(const std::string& text, const std::string& where, const char* kind) {
-  const JsonFile file = JsonFile::ofText(text, where, kRemedy);
+  JsonFile file = JsonFile::ofText(text, where, kRemedy);
   needKind(file, kind, 1);
   return file;
 }

@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import { after, before, test } from "node:test";
-import { Educator, kDesktop, kTablet, tabTo } from "./educator.mjs";
+import { Educator, kDesktop, kTablet } from "./educator.mjs";
 
 const url = process.env.PALPA_CONSOLE_URL;
 const skip = url ? false : "PALPA_CONSOLE_URL is not set: start a console and give its address";
@@ -33,16 +33,6 @@ const over = () => page.getByRole("link", { name: "Read the result" });
 const kShortTrials = "40";
 /** ms: a trial on a computer that hardly draws, where hands move only while they see. */
 const kWhole = 240_000;
-
-/** A simulated hand begins by itself: pressed just then, the button would be "Pause" already. A
-    person's trial waits for it, and the station says so. */
-async function waitsForStart(where) {
-  const begins = where.locator(".live-state", {
-    hasText: /Trial is running|Enter (to start|starts)/,
-  });
-  await begins.waitFor({ timeout: 90_000 });
-  return /Enter/.test(await where.locator(".live-state").textContent());
-}
 
 async function startAssessed(trainee, trials) {
   await e.go("#/session");
@@ -261,62 +251,6 @@ test(
   },
 );
 
-test(
-  "by keyboard alone: from the first page to a running session, stopped and ended",
-  { skip, timeout: 300_000 },
-  async (t) => {
-    const own = await e.newPage();
-    const came = performance.now();
-    await own.goto(e.base);
-    await own.locator("#start-session").waitFor();
-    await own.keyboard.press("Tab");
-    assert.equal(
-      await own.evaluate(() => document.activeElement.id),
-      "skip",
-      "the first stop skips the navigation",
-    );
-    await own.keyboard.press("Enter");
-    assert.equal(await own.evaluate(() => document.activeElement.tagName), "H1");
-    await tabTo(own, "#start-session");
-    await own.keyboard.press("Enter");
-    await own.locator("#begin").waitFor();
-    assert.equal(
-      await own.evaluate(() => document.activeElement.tagName),
-      "H1",
-      "the focus is on the new page's heading",
-    );
-    await tabTo(own, "#begin");
-    await own.keyboard.press("Enter");
-    await own.waitForURL(/#\/session\/.+/);
-    let presses = 2;
-    if (await waitsForStart(own)) {
-      await tabTo(own, "#live-go");
-      await own.keyboard.press("Enter");
-      ++presses;
-    }
-    await own.locator(".live-state", { hasText: "Trial is running" }).waitFor();
-    const took_s = ((performance.now() - came) / 1000).toFixed(1);
-    t.diagnostic(`choices from the first page to the first trial: ${presses}, ${took_s} s`);
-    assert.ok(presses <= 4);
-    await own.keyboard.press("Control+.");
-    await own.locator(".alarm .notice", { hasText: "Re-arm when hands are clear" }).waitFor();
-    await e.picture("stopped", own);
-    await tabTo(own, ".controls button.primary:not(#live-go)");
-    await own.keyboard.press("Enter");
-    await own
-      .locator(".alarm .notice", { hasText: "Re-arm when hands are clear" })
-      .waitFor({ state: "detached" });
-    await own.locator("main h1").focus();
-    await tabTo(own, ".controls button:nth-of-type(5)");
-    await own.keyboard.press("Enter");
-    await own.getByRole("dialog").waitFor();
-    await tabTo(own, "dialog button.danger");
-    await own.keyboard.press("Enter");
-    await own.getByRole("link", { name: "Read the result" }).waitFor();
-    await own.close();
-  },
-);
-
 /** A note stands where it was heard of: the order may differ. */
 const told = async (where) => (await where.locator(".events .event").allTextContents()).sort();
 
@@ -333,7 +267,7 @@ test(
   },
   async (t) => {
     const full = !!process.env.PALPA_FULL;
-    const id = await startAssessed(trainees[0], full ? 8 : 3);
+    const id = await startAssessed(trainees[0], full ? 8 : 2);
     const other = await Educator.come(url);
     try {
       await other.go(`#/session/${id}`);
@@ -367,7 +301,7 @@ test(
       assert.deepEqual(mine, theirs);
       assert.equal(
         mine.filter((text) => /^\S* ?.*Trial \d+ starts$/.test(text)).length,
-        full ? 8 : 3,
+        full ? 8 : 2,
         mine.join(" | "),
       );
       e.complaints.push(...other.complaints);
@@ -378,7 +312,7 @@ test(
     await page.locator(".verdict .notice").waitFor();
     assert.equal(
       await page.getByRole("row", { name: /^Trial \d+ assessed/ }).count(),
-      full ? 8 : 3,
+      full ? 8 : 2,
       "every trial is kept",
     );
   },

@@ -236,23 +236,3 @@ export class Educator {
     );
   }
 }
-
-/** Presses Tab until the element has the focus, and checks that the focus can be seen. */
-export async function tabTo(page, selector, most = 80) {
-  for (let n = 0; n < most; ++n) {
-    await page.keyboard.press("Tab");
-    const at = await page.evaluate((s) => {
-      const e = document.activeElement;
-      const style = getComputedStyle(e);
-      return {
-        there: e.matches(s),
-        seen: style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 0,
-      };
-    }, selector);
-    if (at.there) {
-      assert.ok(at.seen, `the focus on ${selector} can be seen`);
-      return;
-    }
-  }
-  assert.fail(`${selector} cannot be reached by Tab`);
-}
