@@ -15,7 +15,7 @@ skip() {
 
 [ -x "${PALPA_CHROMIUM:-/usr/bin/chromium}" ] || skip "no Chromium (Debian: chromium)"
 command -v node >/dev/null || skip "no Node (Debian: nodejs)"
-rm -rf "$work" && mkdir -p "$work/run" && chmod 700 "$work/run"
+rm -rf "$work" && mkdir -p "$work"
 cp "$here"/*.mjs "$here/package.json" "$work"
 if [ "$part" = week ]; then  # with a study that ends within the week
   mkdir -p "$work/assets/protocols"
@@ -47,7 +47,8 @@ while read -r name version sum; do
   unpack_npm_package "$work/$name.tgz" "$place"
 done <"$here/libraries.txt"
 
-export HOME=$work XDG_RUNTIME_DIR=$work/run LC_ALL=C.UTF-8
+run=$(mktemp -d)  # a short name: a socket's path has 107 bytes
+export HOME=$work XDG_RUNTIME_DIR=$run LC_ALL=C.UTF-8
 unset DISPLAY PALPA_RECORDS XDG_DATA_HOME XDG_STATE_HOME
 # begin.sh [--port N]: starts the console and waits until it is there. Kills the one before, as a
 # power cut would.
@@ -73,8 +74,9 @@ BEGIN
 # A session goes on without its console: one that a failed day left would run for ever.
 leave() {
   kill "$(cat "$work/pid")" 2>/dev/null || true
-  grep -lsaFf <(echo "$work/run/palpa/") /proc/[0-9]*/cmdline |
+  grep -lsaFf <(echo "$run/palpa/") /proc/[0-9]*/cmdline |
     while IFS=/ read -r _ _ pid _; do kill "$pid" 2>/dev/null || true; done || true
+  rm -rf "$run"
 }
 trap leave EXIT
 bash "$work/begin.sh"
