@@ -60,7 +60,6 @@ json me(const Console& c, bool entered) {
   json all{{"version", c.place.version}, {"entered", entered}, {"page_key", c.guard.pageKey()}};
   if (!entered) return all;
   all["display"] = c.place.display;
-  all["records"] = c.place.records;
   all["token"] = c.guard.asksForToken();  // others can come to it, too
   all["stations"] = json::array();
   for (const StationKind kind : kStationKinds) all["stations"].push_back(described(c, kind));

@@ -12,7 +12,6 @@ using Eigen::Vector2d;
 using nlohmann::json;
 
 constexpr double kStep_s = 0.05;  // between two places of the needle
-constexpr double kShaft = 0.075;  // m behind the tip
 
 double inMillimetres(double m) { return std::round(1e4 * m) / 10; }
 
@@ -52,7 +51,7 @@ json viewOf(const NeedleView& view, const char* kind, const assess::NeedleViews&
 /// [u, v] of the tip, and of a point on the shaft where it is asked for.
 json needleIn(const NeedleView& view, const TrialSample& at, bool shaft) {
   json ends = json::array({point(view.plane.at(at.tip_A))});
-  if (shaft) ends.push_back(point(view.plane.at(at.tip_A - kShaft * at.axis_A)));
+  if (shaft) ends.push_back(point(view.plane.at(at.tip_A - assess::kShownShaft * at.axis_A)));
   return ends;
 }
 

@@ -79,7 +79,7 @@ TEST(Token, WhoHasItComesInAndNobodyElse) {
   Console& console = guarded.console;
   EXPECT_EQ(console.get("/").status, 200);
   EXPECT_FALSE(console.get("/api/me").json()["entered"].get<bool>());
-  EXPECT_FALSE(console.get("/api/me").json().contains("records"))
+  EXPECT_FALSE(console.get("/api/me").json().contains("stations"))
       << "a stranger is told where things are";
   const std::string paths[] = {"/api/health",   "/api/tasks",           "/api/trainees",
                                "/api/sessions", "/api/sessions/x/live", "/api/sessions/x/view",

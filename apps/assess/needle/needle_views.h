@@ -55,6 +55,9 @@ struct NeedleTrack {
   TrialSample deepest;       ///< where the tip was deepest under the skin
 };
 
+/// So much of the needle is drawn behind its tip, m.
+inline constexpr double kShownShaft = 0.075;
+
 /// Every pass, in order; any sampling rate from about 20 Hz.
 std::vector<NeedleTrack> needleTracks(const std::vector<TrialSample>& samples);
 

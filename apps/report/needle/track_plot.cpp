@@ -18,7 +18,6 @@ using Eigen::Vector2d;
 constexpr double kHead = 26, kFoot = 22;  // px above and below a view, for words
 constexpr double kApartPx = 24;           // between views
 constexpr double kNumber = 8.5;           // radius of a numbered mark
-constexpr double kShaft = 0.075;          // m of the needle behind its tip
 
 /// A view in its place on the picture.
 struct Placed {
@@ -106,7 +105,7 @@ void drawWay(Html& svg, const Placed& at, const NeedleViews& views,
       i == 0 ? tips.moveTo(at.x(p), at.y(p)) : tips.lineTo(at.x(p), at.y(p));
     }
     const Vector2d tip = to(track.deepest.tip_A),
-                   back = to(track.deepest.tip_A - kShaft * track.deepest.axis_A);
+                   back = to(track.deepest.tip_A - assess::kShownShaft * track.deepest.axis_A);
     needles.moveTo(at.x(back), at.y(back));
     needles.lineTo(at.x(tip), at.y(tip));
   }

@@ -6,6 +6,7 @@ import fs from "node:fs";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { Educator, kDesktop, kTablet } from "./educator.mjs";
+import { Keyboard } from "./hands.mjs";
 
 const url = process.env.PALPA_CONSOLE_URL;
 const skip = url ? false : "PALPA_CONSOLE_URL is not set: start a console and give its address";
@@ -251,6 +252,55 @@ test(
   },
 );
 
+test(
+  "by keyboard alone: from the first page to a running session, stopped and ended",
+  { skip, timeout: 300_000 },
+  async (t) => {
+    const own = await e.newPage(),
+      hand = new Keyboard(own),
+      focused = () =>
+        own.evaluate(() => document.activeElement.id || document.activeElement.tagName);
+    const came = performance.now();
+    await own.goto(e.base);
+    await own.locator("#start-session").waitFor();
+    await own.keyboard.press("Tab");
+    assert.equal(await focused(), "skip", "the first stop skips the navigation");
+    await own.keyboard.press("Enter");
+    assert.equal(await focused(), "H1");
+    await hand.press(own.locator("#start-session"));
+    await own.locator("#begin").waitFor();
+    assert.equal(await focused(), "H1", "the focus is on the new page's heading");
+    await hand.press(own.locator("#begin"));
+    await own.waitForURL(/#\/session\/.+/);
+    let presses = 2;
+    // A simulated hand begins by itself; a person's trial waits, and the station says so.
+    const line = own.locator(".live-state", {
+      hasText: /Trial is running|Enter (to start|starts)/,
+    });
+    await line.waitFor({ timeout: 90_000 });
+    if (/Enter/.test(await line.textContent())) {
+      await hand.press(own.locator("#live-go"));
+      ++presses;
+    }
+    await own.locator(".live-state", { hasText: "Trial is running" }).waitFor();
+    const took_s = ((performance.now() - came) / 1000).toFixed(1);
+    t.diagnostic(`choices from the first page to the first trial: ${presses}, ${took_s} s`);
+    assert.ok(presses <= 4);
+    const alarm = own.locator(".alarm .notice", { hasText: "Re-arm when hands are clear" });
+    await own.keyboard.press("Control+.");
+    await alarm.waitFor();
+    await e.picture("stopped", own);
+    await hand.press(own.getByRole("button", { name: "Re-arm" }));
+    await alarm.waitFor({ state: "detached" });
+    await own.locator("main h1").focus();
+    await hand.press(own.getByRole("button", { name: "End the session…" }));
+    const dialog = own.getByRole("dialog");
+    await hand.press(dialog.getByRole("button", { name: "End the session" }));
+    await own.getByRole("link", { name: "Read the result" }).waitFor();
+    await own.close();
+  },
+);
+
 /** A note stands where it was heard of: the order may differ. */
 const told = async (where) => (await where.locator(".events .event").allTextContents()).sort();
 
@@ -267,7 +317,7 @@ test(
   },
   async (t) => {
     const full = !!process.env.PALPA_FULL;
-    const id = await startAssessed(trainees[0], full ? 8 : 2);
+    const id = await startAssessed(trainees[0], full ? 8 : 3);
     const other = await Educator.come(url);
     try {
       await other.go(`#/session/${id}`);
@@ -301,7 +351,7 @@ test(
       assert.deepEqual(mine, theirs);
       assert.equal(
         mine.filter((text) => /^\S* ?.*Trial \d+ starts$/.test(text)).length,
-        full ? 8 : 2,
+        full ? 8 : 3,
         mine.join(" | "),
       );
       e.complaints.push(...other.complaints);
@@ -312,7 +362,7 @@ test(
     await page.locator(".verdict .notice").waitFor();
     assert.equal(
       await page.getByRole("row", { name: /^Trial \d+ assessed/ }).count(),
-      full ? 8 : 2,
+      full ? 8 : 3,
       "every trial is kept",
     );
   },
