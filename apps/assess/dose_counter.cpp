@@ -40,15 +40,13 @@ void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
 void TrialDoses::begin(std::uint32_t trial) {
   counter_ = DoseCounter(plan_, subtasks_);
   trial_ = trial;
-  last_ns_ = -1;
+  clock_ = {};
 }
 
 void TrialDoses::add(const haptics::FlightRecord& record) {
-  constexpr double kLongestGap_s = 0.1;
-  if (record.commands.trial != trial_ || !record.commands.armed) return;
-  const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
-  last_ns_ = record.t_ns;
-  if (dt > 0 && dt <= kLongestGap_s) counter_.add(record, dt);
+  if (record.commands.trial != trial_) return;
+  if (!record.commands.armed) return clock_.pause();
+  if (const double dt = clock_.pass(record.t_ns); dt > 0) counter_.add(record, dt);
 }
 
 }  // namespace palpa::assess

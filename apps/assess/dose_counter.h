@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/assess/trial.h"
+#include "apps/training/trial_clock.h"
 #include "haptics/augmentation/augmentation.h"
 #include "haptics/flight_record.h"
 
@@ -49,7 +50,7 @@ class TrialDoses {
   std::vector<std::string> subtasks_;
   DoseCounter counter_;
   std::uint32_t trial_ = 0;
-  std::int64_t last_ns_ = -1;
+  training::TrialClock clock_;
 };
 
 }  // namespace palpa::assess

@@ -52,10 +52,9 @@ json event(const json& entry) {
   const json name = entry.value("event", json());
   for (const Kind& one : kHeard) {
     if (name != runtime::nameOf(one.kind)) continue;
-    json kept = only(entry, {"t_s", "trial", "event", "text"});
+    json kept = only(entry, {"t_s", "about_s", "trial", "event", "text"});
     if (one.words) kept["text"] = one.words;
     kept["tone"] = one.kind == EventKind::note ? "note" : "neutral";
-    if (one.kind == EventKind::note) kept["value"] = entry.value("value", json(0));
     return kept;
   }
   return nothing();

@@ -23,16 +23,17 @@ constexpr char kSize[] = "960x540";
 
 double rounded(double value) { return std::isfinite(value) ? std::round(value * 1e3) / 1e3 : 0; }
 
-/// Of one trial, times since it began.
-json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& trial) {
+/// Of one trial, in its own time: as it was judged, pauses left out.
+json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& trial,
+              const training::TrialTimes& times) {
   live::ForceCurve curve;
   reader.ticks([&](const haptics::FlightRecord& record) {
-    if (record.t_ns >= trial.header.t_ns && !trial.isOver(record.t_ns)) curve.add(record);
+    if (record.commands.armed && record.t_ns >= trial.header.t_ns && !trial.isOver(record.t_ns))
+      curve.add(record);
   });
-  const double began_s = static_cast<double>(trial.header.t_ns) * 1e-9;
   json t = json::array(), force = t, depth = t;
   for (const live::ForceCurve::Point& point : curve.points()) {
-    t.push_back(rounded(point.t_s - began_s));
+    t.push_back(rounded(times.at(std::llround(point.t_s * 1e9))));
     force.push_back(rounded(point.force_N));
     depth.push_back(rounded(point.depth_mm));
   }
@@ -41,32 +42,27 @@ json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& 
 
 /// A needle's phases out of its events: each lasts until the next.
 json phasesIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial,
-              double length_s) {
+              const training::TrialTimes& times) {
   json all = json::array();
   for (const runtime::Event& event : events) {
     if (event.trial != trial.header.trial || !event.is(EventKind::phase)) continue;
-    const double t_s = rounded(static_cast<double>(event.t_ns - trial.header.t_ns) * 1e-9);
+    const double t_s = rounded(times.at(event.t_ns));
     if (!all.empty()) all.back()["to_s"] = t_s;
-    all.push_back({{"from_s", t_s}, {"to_s", rounded(length_s)}, {"name", event.text}});
+    all.push_back({{"from_s", t_s}, {"to_s", rounded(times.length_s())}, {"name", event.text}});
   }
   return all;
 }
 
 json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial,
-              const live::ToneOf& tone) {
+              const training::TrialTimes& times, const live::ToneOf& tone) {
   json all = json::array();
   for (const runtime::Event& event : events)
     if (event.trial == trial.header.trial && !event.is(EventKind::trial_case) &&
         !event.is(EventKind::picture))
-      all.push_back(
-          {{"t_s", rounded(static_cast<double>((event.is(EventKind::note) && event.value > 0
-                                                    ? static_cast<std::int64_t>(event.value * 1e9)
-                                                    : event.t_ns) -
-                                               trial.header.t_ns) *
-                           1e-9)},
-           {"event", event.kind},
-           {"text", event.text},
-           {"tone", tone(event)}});
+      all.push_back({{"t_s", rounded(times.at(event.about_ns()))},
+                     {"event", event.kind},
+                     {"text", event.text},
+                     {"tone", tone(event)}});
   return all;
 }
 
@@ -129,15 +125,13 @@ void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
 
 json toldOf(const record::SessionReader& reader, const record::RecordedTrial& trial,
             const live::ToneOf& tone) {
-  json told = curvesOf(reader, trial);
-  const double length_s = trial.ended
-                              ? static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9
-                          : told["t_s"].empty() ? 0
-                                                : told["t_s"].back().get<double>();
+  const training::TrialTimes times = record::trialTimes(reader)[trial.header.trial];
+  json told = curvesOf(reader, trial, times);
+  const double length_s = times.length_s();
   const std::vector<runtime::Event> events = reader.events();
   told["length_s"] = rounded(length_s);
-  told["events"] = eventsIn(events, trial, tone);
-  told["phases"] = phasesIn(events, trial, length_s);
+  told["events"] = eventsIn(events, trial, times, tone);
+  told["phases"] = phasesIn(events, trial, times);
   told["fps"] = kPicturesPerSecond;
   told["frames"] = std::max(1, static_cast<int>(std::lround(length_s * kPicturesPerSecond)));
   return told;

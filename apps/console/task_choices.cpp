@@ -18,25 +18,13 @@ using training::Engine;
 /// What of a task's kind an educator may choose, and what it asks of the trainee.
 struct EngineOptions {
   Engine engine;
-  const char* about;
   bool side, person_by_mouse, surface;
 };
 constexpr EngineOptions kKinds[] = {
-    {Engine::needle, "Guide a needle to a target that is felt, and seen over the camera's picture.",
-     true, true, false},
-    {Engine::palpation,
-     "Search a soft phantom for lumps: they are felt, although the silicone has none.", false, true,
-     true},
-    {Engine::squeeze, "Compare two things between two fingers: which is harder, which is heavier?",
-     false, false, false},
-    {Engine::search, "Find the rough one of three hidden discs by feel.", false, false, false},
-    {Engine::friction, "Stroke over one surface, then over another: which is rougher?", false,
-     false, true},
-    {Engine::pulse, "Find a pulse by feel, count it for 30 seconds and name its rhythm.", false,
-     false, true},
+    {Engine::needle, true, true, false},    {Engine::palpation, false, true, true},
+    {Engine::squeeze, false, false, false}, {Engine::search, false, false, false},
+    {Engine::friction, false, false, true}, {Engine::pulse, false, false, true},
 };
-constexpr const char* kAboutRealLump =
-    "Search a soft phantom in which a lump lies: in half of the cases the device takes it away.";
 
 const EngineOptions& kindOf(const TaskChoice& task) {
   return *std::find_if(std::begin(kKinds), std::end(kKinds),
@@ -71,8 +59,8 @@ std::vector<TaskChoice> taskChoices() {
     const std::optional<Engine> engine = training::engineNamed(file.text("engine"));
     if (!engine) continue;
     const bool block = *engine == Engine::needle && file.has("phantom");
-    all.push_back({file.text("id"), file.text("title"), *engine, entry.path(),
-                   file.has("phantom/shape"), block, file.has("real_lump")});
+    all.push_back({file.text("id"), file.text("title"), file.has("brief") ? file.text("brief") : "",
+                   *engine, entry.path(), file.has("phantom/shape"), block, file.has("real_lump")});
   }
   const auto first = [](const TaskChoice& task) {
     return std::pair(task.id != "paracentesis", task.id);
@@ -99,7 +87,7 @@ json described(const TaskChoice& task) {
   return {{"id", task.id},
           {"title", task.title},
           {"engine", training::nameOf(task.engine)},
-          {"about", task.real_lump ? kAboutRealLump : kind.about},
+          {"about", task.brief},
           {"options", options},
           {"station", nameOf(stationKindOf(task.engine))},
           {"surfaces", surfacesOf(task)},

@@ -14,6 +14,7 @@ namespace palpa::console {
 
 struct TaskChoice {
   std::string id, title;
+  std::string brief;  ///< what the trainee is to do, a sentence
   training::Engine engine;
   std::filesystem::path file;
   bool curved = false;     ///< the top of its phantom

@@ -1,12 +1,16 @@
 #include "apps/evidence/told_events.h"
 
 #include <algorithm>
+#include <map>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/utc.h"
 #include "apps/report/needle/trial_chart.h"
 #include "apps/runtime/clock.h"
+#include "apps/training/trial_clock.h"
 
 namespace palpa::evidence {
 
@@ -41,14 +45,27 @@ std::string toneOfEvent(const runtime::Event& event) {
 
 namespace {
 
-/// When it was begun, where somebody noted it so; else when it came.
-std::int64_t noted(const runtime::Event& event) {
-  return event.value > 0 ? static_cast<std::int64_t>(event.value * 1e9) : event.t_ns;
-}
-
 bool inVirtualTime(const record::SessionInfo& info) {
   const nlohmann::json session = parseJson(info.session_json);
   return session.is_object() && session.value("virtual_time", false);
+}
+
+/// Notes with the trial that each is about, and when in it.
+void addNotes(const record::SessionReader& session, std::vector<report::Remark>* remarks) {
+  std::vector<runtime::Event> notes = session.events();
+  std::erase_if(notes, [](const runtime::Event& event) { return !event.is(EventKind::note); });
+  if (notes.empty()) return;
+  const auto trials = session.trials();
+  const std::map<int, training::TrialTimes> times = trialTimes(session);
+  for (const runtime::Event& note : notes) {
+    const std::int64_t then_ns = note.about_ns();
+    const auto trial = std::find_if(trials.begin(), trials.end(), [&](const auto& one) {
+      return one.header.t_ns <= then_ns && !one.isOver(then_ns);
+    });
+    const int number = trial == trials.end() ? 0 : trial->header.trial;
+    const auto its = times.find(number);
+    remarks->push_back({number, its == times.end() ? 0 : its->second.at(then_ns), note.text});
+  }
 }
 
 }  // namespace
@@ -58,20 +75,7 @@ report::SessionPage whatWasNoted(const record::SessionReader& session) {
   if (const record::SessionInfo& info = session.info(); !inVirtualTime(info))
     page.when =
         runtime::dateText("%-d %B %Y, %H:%M", runtime::Zone::local, utcSecondsOf(info.started_utc));
-  const auto trials = session.trials();
-  for (const runtime::Event& event : session.events()) {
-    if (!event.is(EventKind::note)) continue;
-    const std::int64_t then_ns = noted(event);
-    const auto trial = std::find_if(trials.begin(), trials.end(), [&](const auto& one) {
-      return one.header.t_ns <= then_ns && !one.isOver(then_ns);
-    });
-    if (trial == trials.end())
-      page.remarks.push_back({0, 0, event.text});
-    else
-      page.remarks.push_back({trial->header.trial,
-                              1e-9 * static_cast<double>(then_ns - trial->header.t_ns),
-                              event.text});
-  }
+  addNotes(session, &page.remarks);
   return page;
 }
 

@@ -106,6 +106,7 @@ void LiveSink::event(const runtime::Event& event) {
   if (event.is(runtime::EventKind::picture) || event.is(runtime::EventKind::trial_case)) return;
   log_.add(entryOf({{"kind", "event"},
                     {"t_s", secondsOf(event.t_ns)},
+                    {"about_s", secondsOf(event.about_ns())},
                     {"trial", event.trial},
                     {"event", event.kind},
                     {"text", event.text},

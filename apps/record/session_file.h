@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/runtime/flight_sink.h"
+#include "apps/training/trial_clock.h"
 #include "haptics/loop/tick_config.h"
 #include "haptics/loop/tick_forces.h"
 #include "haptics/loop/tick_state.h"
@@ -57,6 +59,7 @@ struct RecordedTrial {
   runtime::TrialEnd end;  ///< `t_ns` of one that did not end: of the last tick that was recorded
   bool ended = false;     ///< false: the process stopped in the middle
 
+  /// From begin to end, pauses included.
   double length_s() const { return 1e-9 * static_cast<double>(end.t_ns - header.t_ns); }
 
   /// Whether it had ended before this time; one that the process stopped in has not.
@@ -81,6 +84,10 @@ class SessionReader {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The time of every trial, by its number, as whoever judges or shows it counts: one pass over the
+/// ticks. Throws Error.
+std::map<int, training::TrialTimes> trialTimes(const SessionReader& reader);
 
 /// A column of the tick table: its name ends in its unit where it has one; `meaning` says the rest.
 /// SI units throughout, so that every number is the recorded one to its last bit.

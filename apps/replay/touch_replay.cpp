@@ -94,8 +94,6 @@ std::unique_ptr<TrialReplay> palpationReplay(const PalpationTrial& trial, scene:
 
 namespace {
 
-constexpr double kLongestGap = 0.1;  // s; longer: it was paused
-
 class SearchReplay final : public TrialReplay {
  public:
   SearchReplay(const ShownSearch& trial, scene::SceneView& view)
@@ -132,14 +130,13 @@ SearchReader::SearchReader(const task_search::SearchSettings& task,
 }
 
 void SearchReader::add(const haptics::FlightRecord& record) {
-  if (record.commands.trial != trial_ || !record.commands.armed) return;
+  if (record.commands.trial != trial_) return;
+  if (!record.commands.armed) return clock_.pause();
   listener_.add(record, task_search::tipOf(config_, record.reading));
-  const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
-  last_ns_ = record.t_ns;
-  if (dt <= kLongestGap) seconds_ += dt;
-  if (!moments_.empty() && seconds_ - moments_.back().t_s < kMomentStep - 1e-9) return;
-  moments_.push_back(
-      {seconds_, toolIn(record, unpack(config_.X_ET)), !listener_.released(), listener_.seconds()});
+  clock_.pass(record.t_ns);
+  if (!moments_.empty() && clock_.seconds() - moments_.back().t_s < kMomentStep - 1e-9) return;
+  moments_.push_back({clock_.seconds(), toolIn(record, unpack(config_.X_ET)), !listener_.released(),
+                      listener_.seconds()});
 }
 
 std::unique_ptr<TrialReplay> searchReplay(const ShownSearch& trial, scene::SceneView& view) {

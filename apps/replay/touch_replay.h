@@ -10,6 +10,7 @@
 #include "apps/task_palpation/palpation_task.h"
 #include "apps/task_pulse/pulse_task.h"
 #include "apps/task_search/search_task.h"
+#include "apps/training/trial_clock.h"
 
 namespace palpa::replay {
 
@@ -80,8 +81,7 @@ class SearchReader {
   const haptics::TickConfig& config_;
   task_search::SearchListener listener_;
   std::uint32_t trial_;
-  std::int64_t last_ns_ = -1;
-  double seconds_ = 0;
+  training::TrialClock clock_;
   std::vector<SearchMoment> moments_;
 };
 

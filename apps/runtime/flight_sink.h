@@ -21,6 +21,10 @@ struct Event {
   std::string text;       ///< clinical words
   double value = 0;
   bool is(EventKind one) const { return kind == nameOf(one); }
+  /// The moment that it is about: a note is of when somebody began it, where that is known.
+  std::int64_t about_ns() const {
+    return is(EventKind::note) && value > 0 ? static_cast<std::int64_t>(value * 1e9) : t_ns;
+  }
 };
 
 struct TrialHeader {

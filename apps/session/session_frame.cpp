@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "anatomy/base/counted.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/uuid.h"
 #include "apps/evidence/told_events.h"
 #include "apps/live/wire.h"
@@ -268,6 +269,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   devices_.addTo(*executive_);
   if (const std::string warning = devices_.warning(); !warning.empty()) task.warn(warning);
   if (window_ && !options_.fast) task.stay();
+  task.isFor(parseJson(info.task_json).value("brief", ""));
   if (window_) task.isMovedBy(trial::movedWords(heldBy(devices_), options_.left_handed));
   executive_->add(*haptic, {1, true, false, options_.cpu});
   if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});

@@ -14,8 +14,7 @@ using training::Outcome;
 
 namespace {
 
-constexpr double kLongestGap_s = 0.1,
-                 kTouch_s = 0.1;  // longer: it was paused; shorter: it was no touch
+constexpr double kTouch_s = 0.1;  // shorter: it was no touch
 
 double sensedN(const haptics::FlightRecord& r) {
   return r.sensed.state == haptics::SensorState::valid ? unpack(r.sensed.f_D).norm() : 0;
@@ -71,15 +70,14 @@ int ComparisonListener::allTouches() const {
 }
 
 void ComparisonListener::add(const haptics::FlightRecord& record) {
-  if (record.commands.trial != trial_ || !record.commands.armed) return;
+  if (record.commands.trial != trial_) return;
+  if (!record.commands.armed) return clock_.pause();
   if (tools_ == 2 && record.tool == 0) {
     first_ = record;
     return;
   }
-  const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
-  last_ns_ = record.t_ns;
-  if (dt <= 0 || dt > kLongestGap_s) return;
-  seconds_ += dt;
+  const double dt = clock_.pass(record.t_ns);
+  if (dt <= 0) return;
   const bool touching = sensedN(record) >= touch_ && (tools_ == 1 || sensedN(first_) >= touch_);
   const double before = touch_s_;
   touch_s_ = touching ? touch_s_ + dt : 0;

@@ -5,6 +5,7 @@
 
 #include "apps/task_comparison/comparison_file.h"
 #include "apps/training/engine.h"
+#include "apps/training/trial_clock.h"
 #include "apps/training/trial_words.h"
 #include "apps/trial/trial_status.h"
 #include "apps/trial/trial_task.h"
@@ -27,7 +28,7 @@ class ComparisonListener {
   /// force may be rendered.
   void add(const haptics::FlightRecord& record);
 
-  double seconds() const { return seconds_; }                   ///< of the trial, pauses left out
+  double seconds() const { return clock_.seconds(); }           ///< of the trial, pauses left out
   double peak() const { return peak_; }                         ///< N
   double now_N() const { return now_N_; }                       ///< of the last tick
   bool touching() const { return touch_s_ > 0; }                ///< every tool does
@@ -42,9 +43,9 @@ class ComparisonListener {
   int tools_;
   std::uint32_t trial_ = 0;
   Comparison comparison_;
-  std::int64_t last_ns_ = -1;
+  training::TrialClock clock_;
   haptics::FlightRecord first_;  ///< of the first tool, in this tick
-  double seconds_ = 0, peak_ = 0, now_N_ = 0, touch_s_ = 0;
+  double peak_ = 0, now_N_ = 0, touch_s_ = 0;
   std::vector<int> touches_{0, 0};
 };
 

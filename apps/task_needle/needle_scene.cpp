@@ -56,9 +56,7 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
                    const presentation::Presentation& shown) {
   scene::Hud hud;
   const bool active = status.active();
-  hud.phase = active && shown.guidance ? status.step : "";
-  if (status.trials > 1 && status.trial > 0)
-    hud.phase = format("Trial %d of %d  ", status.trial, status.trials) + hud.phase;
+  hud.phase = trial::numberAndAim(status, "Trial") + (active && shown.guidance ? status.step : "");
   if (active) {
     hud.depth = depthText(tool, words);
     hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +

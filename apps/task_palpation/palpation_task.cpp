@@ -17,7 +17,6 @@ using training::Role;
 namespace {
 
 constexpr std::int64_t kEvery_ns = 10'000'000;
-constexpr double kLongestGap_s = 0.1;  // longer: it was paused
 constexpr const char* kTakenAway = "the real lump is taken away";
 
 }  // namespace
@@ -40,9 +39,8 @@ PalpationListener::PalpationListener(const haptics::TickConfig& config,
 
 void PalpationListener::begin(std::uint32_t trial) {
   trial_ = trial;
-  last_ns_ = -1;
+  clock_ = {};
   kept_ns_ = {-1, -1};
-  seconds_ = 0;
   pressed_ = true;  // a button that is down already marks nothing
   samples_.clear();
   marks_.clear();
@@ -58,17 +56,17 @@ bool PalpationListener::add(const haptics::FlightRecord& record) {
   if (record.commands.trial != trial_) return false;
   const std::size_t tool = record.tool & 1;
   if (!record.commands.armed || !record.reading.homed) {
-    if (tool == 0) pressed_ = true;  // what is pressed over a pause marks nothing
+    if (tool != 0) return false;
+    clock_.pause();
+    pressed_ = true;  // what is pressed over a pause marks nothing
     return false;
   }
   const TopFoot foot = nearestOn(top_, tipMiddle(record));
   const Vec3 p_P(foot.p.x(), foot.p.y(), foot.over - radius_);
   if (tool == 0) {
-    const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
-    last_ns_ = record.t_ns;
-    if (dt > 0 && dt < kLongestGap_s) seconds_ += dt;
+    clock_.pass(record.t_ns);
     const bool down = (record.reading.buttons & kMark) != 0;
-    if (down && !pressed_ && p_P.z() < kOver) marks_.push_back({seconds_, p_P, 0, 0, 0});
+    if (down && !pressed_ && p_P.z() < kOver) marks_.push_back({seconds(), p_P, 0, 0, 0});
     pressed_ = down;
   }
   if (kept_ns_[tool] >= 0 && record.t_ns - kept_ns_[tool] < kEvery_ns) return false;
@@ -76,7 +74,7 @@ bool PalpationListener::add(const haptics::FlightRecord& record) {
   const Vec3 f_D = unpack(record.sensed.f_D) + unpack(record.f_command_D);
   const Vec3 f_P = X_PD_[tool].linear() * f_D;
   const double f_n = top_.flat() ? f_P.z() : f_P.dot(foot.n);
-  samples_.push_back({seconds_, p_P, std::max(f_n, 0.0), static_cast<int>(tool)});
+  samples_.push_back({seconds(), p_P, std::max(f_n, 0.0), static_cast<int>(tool)});
   return true;
 }
 

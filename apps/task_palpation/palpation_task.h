@@ -9,6 +9,7 @@
 #include "apps/task_palpation/guidance.h"
 #include "apps/task_palpation/palpation_file.h"
 #include "apps/task_palpation/sensor_check.h"
+#include "apps/training/trial_clock.h"
 #include "apps/training/trial_words.h"
 #include "apps/trial/trial_status.h"
 #include "apps/trial/trial_task.h"
@@ -40,7 +41,7 @@ class PalpationListener {
   /// nothing was said.
   void grade(double diameter, int hardness, int mobility, std::size_t mark = 0);
 
-  double seconds() const { return seconds_; }  ///< of the trial, pauses left out
+  double seconds() const { return clock_.seconds(); }  ///< of the trial, pauses left out
   const std::vector<assess::PalpationSample>& samples() const { return samples_; }
   const std::vector<assess::LumpMark>& marks() const { return marks_; }
 
@@ -52,9 +53,8 @@ class PalpationListener {
   TopShape top_;
   double radius_;
   std::uint32_t trial_ = 0;
-  std::int64_t last_ns_ = -1;
+  training::TrialClock clock_;
   std::array<std::int64_t, 2> kept_ns_{-1, -1};
-  double seconds_ = 0;
   bool pressed_ = false;
   std::vector<assess::PalpationSample> samples_;
   std::vector<assess::LumpMark> marks_;

@@ -13,7 +13,6 @@ using training::Outcome;
 
 namespace {
 
-constexpr double kLongestGap_s = 0.1;                // longer: it was paused
 constexpr std::int64_t kFirstBeat_ns = 500'000'000;  // after the trial's start
 constexpr std::size_t kMostDigits = 3;
 constexpr int kRhythmCount = 3;
@@ -39,9 +38,10 @@ PulseListener::PulseListener(const haptics::TickConfig& config, const assess::Pu
 
 void PulseListener::begin(std::uint32_t trial) {
   trial_ = trial;
+  clock_ = {};
   last_ns_ = -1;
   pressed_ = true;
-  seconds_ = counted_s_ = shut_s_ = off_s_ = peak_N_ = now_N_ = mark_s_ = 0;
+  counted_s_ = shut_s_ = off_s_ = peak_N_ = now_N_ = mark_s_ = 0;
   marks_ = delivered_ = 0;
   mark_P_.reset();
 }
@@ -49,19 +49,19 @@ void PulseListener::begin(std::uint32_t trial) {
 void PulseListener::add(const haptics::FlightRecord& record) {
   if (record.commands.trial != trial_) return;
   if (!record.commands.armed || !record.reading.homed) {
+    clock_.pause();
     pressed_ = true;  // what is pressed over a pause marks nothing
     return;
   }
   const std::int64_t before_ns = last_ns_;
   last_ns_ = record.t_ns;
-  const double dt = before_ns < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - before_ns);
+  const double dt = clock_.pass(record.t_ns);
   const Vec3 f_D = unpack(record.sensed.f_D) + unpack(record.f_command_D);
   now_N_ = std::max((X_PD_.linear() * f_D).z(), 0.0);
   peak_N_ = std::max(peak_N_, now_N_);
   const PulsePart part = partIn(record.commands);
   watchMark(record, part);
-  if (dt <= 0 || dt > kLongestGap_s) return;
-  seconds_ += dt;
+  if (dt <= 0) return;
   if (part == PulsePart::count) countBeats(record, before_ns, dt);
 }
 
@@ -71,7 +71,7 @@ void PulseListener::watchMark(const haptics::FlightRecord& record, PulsePart par
     const Pose X_DE = makePose(unpack(record.reading.q_DE).normalized().toRotationMatrix(),
                                unpack(record.reading.p_DE));
     mark_P_ = X_PD_ * (X_DE * (X_ET_ * Vec3(0, 0, -radius_))) - radius_ * Vec3::UnitZ();
-    mark_s_ = seconds_;
+    mark_s_ = seconds();
     ++marks_;
   }
   pressed_ = down;
@@ -89,7 +89,7 @@ void PulseListener::countBeats(const haptics::FlightRecord& record, std::int64_t
 }
 
 void PulseListener::into(const PulseCase& patient, assess::PulseTrial* trial) const {
-  trial->seconds = seconds_;
+  trial->seconds = seconds();
   trial->peak_N = peak_N_;
   if (mark_P_) {
     trial->off_m = besideArtery(patient.artery, *mark_P_);

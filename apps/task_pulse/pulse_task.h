@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/task_pulse/pulse_file.h"
+#include "apps/training/trial_clock.h"
 #include "apps/training/trial_words.h"
 #include "apps/trial/trial_status.h"
 #include "apps/trial/trial_task.h"
@@ -31,7 +32,7 @@ class PulseListener {
   /// Counts while the trial is on and force may be rendered.
   void add(const haptics::FlightRecord& record);
 
-  double seconds() const { return seconds_; }  ///< of the trial, pauses left out
+  double seconds() const { return clock_.seconds(); }  ///< of the trial, pauses left out
   double countedSeconds() const { return counted_s_; }
   double now_N() const { return now_N_; }
   bool touching() const { return now_N_ >= rules_.touch_N; }
@@ -48,9 +49,10 @@ class PulseListener {
   double radius_, closed_at_;
   assess::PulseRules rules_;
   std::uint32_t trial_ = 0;
+  training::TrialClock clock_;
   std::int64_t last_ns_ = -1;
   bool pressed_ = true;  ///< a button that is down already marks nothing
-  double seconds_ = 0, counted_s_ = 0, shut_s_ = 0, off_s_ = 0, peak_N_ = 0, now_N_ = 0;
+  double counted_s_ = 0, shut_s_ = 0, off_s_ = 0, peak_N_ = 0, now_N_ = 0;
   int marks_ = 0, delivered_ = 0;
   std::optional<Vec3> mark_P_;
   double mark_s_ = 0;

@@ -36,15 +36,12 @@ void SearchScene::compose(scene::SceneState& state, const runtime::ToolState& to
 
 scene::Hud SearchScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
   scene::Hud hud;
-  char text[96];
-  if (status_.trials > 1 && status_.trial > 0) {
-    std::snprintf(text, sizeof text, "Episode %d of %d  ", status_.trial, status_.trials);
-    hud.phase = text;
-  }
+  hud.phase = trial::numberAndAim(status_, "Episode");
   if (status_.active()) {
     hud.phase += status_.held ? "The handle is held: it is let go in a moment"
                               : "Find the rough one; stay in its middle";
     const int seconds = static_cast<int>(status_.elapsed_s);
+    char text[16];
     std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
     hud.time = text;
     if (!status_.force_feedback) hud.note = "force feedback off";

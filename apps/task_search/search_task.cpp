@@ -9,12 +9,6 @@ namespace palpa::task_search {
 
 using training::Outcome;
 
-namespace {
-
-constexpr double kLongestGap_s = 0.1;  // longer: it was paused
-
-}  // namespace
-
 SearchListener::SearchListener(const SearchSettings& task, const haptics::AugmentationPlan& plan)
     : task_(&task), plan_(plan) {}
 
@@ -25,14 +19,13 @@ void SearchListener::begin(std::uint32_t trial) {
 }
 
 void SearchListener::add(const haptics::FlightRecord& record, const Vec3& p_DT) {
-  if (record.commands.trial != trial_ || !record.commands.armed || record.commands.held) return;
-  const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
+  if (record.commands.trial != trial_) return;
+  if (!record.commands.armed || record.commands.held) return clock_.pause();
+  const double dt = clock_.pass(record.t_ns);
   const Vec3 way = p_DT - p_last_;
-  last_ns_ = record.t_ns;
   p_last_ = p_DT;
   released_ = true;
-  if (dt <= 0 || dt > kLongestGap_s) return;
-  seconds_ += dt;
+  if (dt <= 0) return;
   path_ += way.norm();
   subtasks_ = record.subtasks;
   doses_.add(record, dt);
@@ -53,7 +46,7 @@ void SearchListener::add(const haptics::FlightRecord& record, const Vec3& p_DT) 
 
 assess::SearchTrial SearchListener::observed(assess::SearchTrial facts) const {
   facts.chosen = chosen_;
-  facts.seconds = seconds_;
+  facts.seconds = clock_.seconds();
   facts.path_m = path_;
   facts.peak_force_N = peak_N_;
   facts.mean_force_N = contact_s_ > 0 ? force_Ns_ / contact_s_ : 0;

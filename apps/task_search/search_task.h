@@ -7,6 +7,7 @@
 #include "apps/assess/search/search_trial.h"
 #include "apps/task_search/floors.h"
 #include "apps/task_search/search_file.h"
+#include "apps/training/trial_clock.h"
 #include "apps/training/trial_words.h"
 #include "apps/trial/trial_task.h"
 
@@ -23,7 +24,7 @@ class SearchListener {
   void add(const haptics::FlightRecord& record, const Vec3& p_DT);
 
   bool released() const { return released_; }  ///< the handle has been let go
-  double seconds() const { return seconds_; }
+  double seconds() const { return clock_.seconds(); }
   /// Element where the probe has stayed long enough; -1: none yet
   int chosen() const { return chosen_; }
   std::uint8_t subtasks() const { return subtasks_; }  ///< bits, of the last tick
@@ -34,10 +35,10 @@ class SearchListener {
   const SearchSettings* task_;
   haptics::AugmentationPlan plan_;
   std::uint32_t trial_ = 0;
-  std::int64_t last_ns_ = -1;
+  training::TrialClock clock_;  ///< the holding left out
   bool released_ = false;
   Vec3 p_last_ = Vec3::Zero();
-  double seconds_ = 0, path_ = 0, peak_N_ = 0, force_Ns_ = 0, contact_s_ = 0, dwell_s_ = 0;
+  double path_ = 0, peak_N_ = 0, force_Ns_ = 0, contact_s_ = 0, dwell_s_ = 0;
   int dwells_ = -1, chosen_ = -1;
   std::uint8_t subtasks_ = 0;
   std::array<double, 3> visited_{};

@@ -26,6 +26,7 @@ struct TrialStatus {
   haptics::SafetyCause trip = haptics::SafetyCause::none;
   std::string notice;  ///< one line for the person
   bool alarm = false;
+  std::string aim;     ///< before a trial: what it is for; empty: nobody is there to read it
   std::string can_do;  ///< what a person can do now; empty: nobody is there to read it
   bool active() const { return state == TrialState::running || state == TrialState::paused; }
 };

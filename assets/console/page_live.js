@@ -265,7 +265,7 @@ export async function show({ root, life, params: [id], open }) {
     end: showEnd,
     earlier: () => events.earlier(),
     event: (heard) => {
-      const m = heard.event === "note" && heard.value > 0 ? { ...heard, t_s: heard.value } : heard;
+      const m = { ...heard, t_s: heard.about_s };
       figure.event(m);
       if (events.add(m, m.tone || "neutral")) curves.moment(m, m.tone || "neutral");
     },

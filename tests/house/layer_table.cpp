@@ -114,7 +114,7 @@ Layers platformLayers() {
        .never = {"apps/twin"},
        .libraries = {"Eigen", "OpenCV", "JSON"}},
       {.folder = "apps/record",
-       .ours = {"anatomy/geometry", "haptics", "apps/os", "apps/runtime"},
+       .ours = {"anatomy/geometry", "haptics", "apps/os", "apps/training", "apps/runtime"},
        .never = {"apps/record/store", "apps/twin"},
        .libraries = {"Eigen", "JSON", "SQLite", "zlib"}},
       {.folder = "apps/record/store",
@@ -185,7 +185,8 @@ Layers trialLayers() {
        .never = {"apps/record", "apps/report", "apps/twin"},
        .libraries = {"Eigen", "OpenCV", "JSON"}},
       {.folder = "apps/replay",
-       .ours = librariesAnd({"apps/task_*", "apps/trial", "apps/assess", "apps/runtime"}),
+       .ours = librariesAnd(
+           {"apps/training", "apps/task_*", "apps/trial", "apps/assess", "apps/runtime"}),
        .never = {"apps/record", "apps/report", "apps/twin"},
        .libraries = {"Eigen", "OpenCV", "JSON"}},
       {.folder = "apps/evidence",

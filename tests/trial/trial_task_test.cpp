@@ -18,6 +18,7 @@ class PlainTask final : public TrialTask {
   TrialState state() const { return status().state; }
   const std::string& notice() const { return status().notice; }
   const std::string& canBeDone() const { return status().can_do; }
+  const std::string& saysFirst() const { return status().aim; }
   void endNow(std::int64_t now_ns) { endTrial(training::Outcome::voided, "", now_ns); }
 
  protected:
@@ -178,6 +179,16 @@ TEST_F(Rehearsing, HowTheToolIsMovedIsSaidWhileNothingElseIs) {
   step();
   step();
   EXPECT_EQ(task.canBeDone(), "Drag: over the skin. ? shows keys");
+}
+
+TEST_F(Rehearsing, WhatATrialIsForIsSaidUntilItBegins) {
+  task.isFor("Find the lump.");
+  run(210);
+  EXPECT_EQ(task.saysFirst(), "Find the lump.");
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  step();
+  EXPECT_EQ(task.saysFirst(), "");
 }
 
 TEST_F(Rehearsing, WhoGoesAwayHoldsTheStationUpForAMinute) {

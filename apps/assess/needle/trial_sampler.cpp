@@ -4,23 +4,21 @@ namespace palpa::assess {
 
 void TrialSampler::begin(std::uint32_t trial) {
   trial_ = trial;
-  t_s_ = 0;
-  last_ns_ = -1;
+  clock_ = {};
   pending_events_ = 0;
 }
 
 bool TrialSampler::add(const haptics::FlightRecord& record, TrialSample* sample) {
   if (record.commands.trial != trial_) return false;
   if (!record.commands.armed) {
-    last_ns_ = -1;
+    clock_.pause();
     pending_events_ |= record.events;
     return false;
   }
-  if (last_ns_ >= 0) t_s_ += static_cast<double>(record.t_ns - last_ns_) * 1e-9;
-  last_ns_ = record.t_ns;
+  clock_.pass(record.t_ns);
   const Quat q_DE = unpack(record.reading.q_DE).normalized();
   const Pose X_AT = X_AD_ * makePose(q_DE.toRotationMatrix(), unpack(record.reading.p_DE)) * X_ET_;
-  sample->t_s = t_s_;
+  sample->t_s = clock_.seconds();
   sample->tip_A = X_AT.translation();
   sample->axis_A = X_AT.rotation() * Vec3::UnitZ();
   sample->bevel_A = X_AT.rotation() * Vec3::UnitY();

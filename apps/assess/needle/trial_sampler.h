@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/assess/needle/trial_assessment.h"
+#include "apps/training/trial_clock.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::assess {
@@ -19,8 +20,7 @@ class TrialSampler {
  private:
   Pose X_AD_, X_ET_;
   std::uint32_t trial_ = 0;
-  double t_s_ = 0;
-  std::int64_t last_ns_ = -1;
+  training::TrialClock clock_;
   std::uint32_t pending_events_ = 0;  ///< of ticks that were left out
 };
 
