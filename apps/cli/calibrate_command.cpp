@@ -131,6 +131,7 @@ void addCalibrate(CLI::App& program) {
   addSubtaskCalibration(*calibrate);
   addProcedureCalibration(*calibrate);
   addExpertCalibration(*calibrate);
+  addExpertRanges(*calibrate);
 }
 
 }  // namespace palpa::cli

@@ -71,6 +71,7 @@ void proposeByLibrary(const std::vector<std::string>& recordings, const std::str
 
 /// experts: the expert path from recorded trials.
 void addExpertCalibration(CLI::App& calibrate);
+void addExpertRanges(CLI::App& calibrate);
 
 /// `palpa study analyse`: tables, figures and a page of a study from its records.
 void addStudyAnalyse(CLI::App& study);

@@ -201,13 +201,18 @@ namespace {
 class Practice {
  public:
   progress::PracticeTrial of(const record::TrialWithSession& stored);
+  /// Of its task's file; of a needle's session that does not say it what it is filed under.
+  const std::string& taskId(const record::StoredSession& session) {
+    readSession(session);
+    return task_id_;
+  }
 
  private:
   void readSession(const record::StoredSession& session);
   void readNames(const std::vector<record::Metric>& metrics);
   std::string conditionOf(const record::StoredTrial& trial, bool by_path) const;
 
-  std::string session_;
+  std::string session_, task_id_;
   bool cues_on_ = false;
   std::vector<std::string> names_;  ///< of the metrics
   std::vector<std::size_t> numbers_;
@@ -216,7 +221,9 @@ class Practice {
 
 void Practice::readSession(const record::StoredSession& session) {
   if (session.uuid == session_) return;
-  cues_on_ = parseJson(session.facts_json).value("augment", false);
+  const nlohmann::json facts = parseJson(session.facts_json);
+  cues_on_ = facts.value("augment", false);
+  task_id_ = facts.value("task", session.task);
   session_ = session.uuid;
 }
 
@@ -289,14 +296,15 @@ std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,
       if (trainee.group == choice.group) group.insert(trainee.id);
   std::vector<progress::PracticeTrial> all;
   Practice practice;
-  store.eachTrial({.trainee = choice.trainee, .task = training::taskIdOf(choice.task)},
-                  [&](const record::TrialWithSession& stored) {
-                    const auto& out = choice.left_out;
-                    if (std::find(out.begin(), out.end(), stored.session.study) != out.end())
-                      return;
-                    if (choice.group.empty() || group.contains(stored.session.trainee))
-                      all.push_back(practice.of(stored));
-                  });
+  store.eachTrial(
+      {.trainee = choice.trainee, .task = training::taskIdOf(choice.task)},
+      [&](const record::TrialWithSession& stored) {
+        const auto& out = choice.left_out;
+        if (std::find(out.begin(), out.end(), stored.session.study) != out.end()) return;
+        if (!choice.task_id.empty() && practice.taskId(stored.session) != choice.task_id) return;
+        if (choice.group.empty() || group.contains(stored.session.trainee))
+          all.push_back(practice.of(stored));
+      });
   return all;
 }
 

@@ -39,6 +39,7 @@ std::string absoluteRecords(const std::string& url);
 /// Which trials a page is about; an empty text means any.
 struct PracticeChoice {
   std::string trainee, group, task;
+  std::string task_id = {};  ///< of the task's file: which of several that count as one task
   std::vector<std::string> left_out = {};  ///< ids of studies
 };
 /// Trials as the pages of practice take them, by trainee, arrival and number. Throws Error for a

@@ -147,11 +147,10 @@ SessionDevices::Hands ComparisonWorld::stroking(const SessionOptions& options) c
 }
 
 record::SessionInfo ComparisonWorld::info(const SessionOptions& options) const {
-  record::SessionInfo info = tools() == 2
-                                 ? infoOf(options, head(options))
-                                 : infoOf(options, head(options), {{"sort", options.sort}});
+  record::SessionInfo info =
+      tools() == 2 ? infoOf(options, head(options), task.source)
+                   : infoOf(options, head(options), task.source, {{"sort", options.sort}});
   info.station_json = station.file.json().dump();
-  info.task_json = task.source;
   info.pair_config = pairConfig(options);
   info.tick_config = info.pair_config ? info.pair_config->tools[0] : tickConfig(options);
   return info;

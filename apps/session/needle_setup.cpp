@@ -75,7 +75,7 @@ haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld&
 }
 
 record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world) {
-  record::SessionInfo info = infoOf(options, headOf(options, world),
+  record::SessionInfo info = infoOf(options, headOf(options, world), world.task.source,
                                     {{"knows_patient", options.knows_patient},
                                      {"side", anatomy::name(world.patient.side)},
                                      {"augment", options.augment},
@@ -86,7 +86,6 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
                                      {"X_WA", json(world.X_WA)},
                                      {"X_WD", json(world.station.X_WD)}});
   info.station_json = world.station.file.json().dump();
-  info.task_json = world.task.source;
   info.patient_glb = anatomy::glbOf(world.patient, "the session's patient");
   if (world.expert_path) info.expert_path_json = world.expert_path->source;
   info.tick_config = tickConfig(options, world);

@@ -190,9 +190,8 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
                      {"tools", options.tools},
                      {"second", options.tracked_finger ? "finger" : "device"}};
   if (task.library.map) own["map"] = station::jsonOf(*task.library.map);
-  record::SessionInfo info = infoOf(options, head(options), std::move(own));
+  record::SessionInfo info = infoOf(options, head(options), task.source, std::move(own));
   info.station_json = station.file.json().dump();
-  info.task_json = task.source;
   info.tick_config = tickConfig(options);
   info.pair_config = pairConfig(options);
   return info;

@@ -41,9 +41,8 @@ SessionDevices::Hands PulseWorld::hands(const SessionOptions& options) const {
 }
 
 record::SessionInfo PulseWorld::info(const SessionOptions& options) const {
-  record::SessionInfo info = infoOf(options, head(options));
+  record::SessionInfo info = infoOf(options, head(options), task.source);
   info.station_json = station.file.json().dump();
-  info.task_json = task.source;
   info.tick_config = tickConfig(options);
   return info;
 }

@@ -127,9 +127,8 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
 
 record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
   record::SessionInfo info =
-      infoOf(options, head(options), nlohmann::json::object({{"mode", options.mode}}));
+      infoOf(options, head(options), task.source, nlohmann::json::object({{"mode", options.mode}}));
   info.station_json = station.file.json().dump();
-  info.task_json = task.source;
   info.tick_config = tickConfig(options);
   return info;
 }

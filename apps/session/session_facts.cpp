@@ -1,4 +1,5 @@
 #include "apps/session/session_facts.h"
+#include "apps/session/session_records.h"
 
 #include <cstdarg>
 #include <cstdio>
@@ -277,7 +278,8 @@ ReportHead headOf(const SessionOptions& options, const std::string& title,
   return head;
 }
 
-record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head, json of_task) {
+record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head,
+                           const std::string& task_json, json of_task) {
   record::SessionInfo info;
   info.uuid = options.uuid;
   info.started_utc = runtime::utcNow();
@@ -292,7 +294,10 @@ record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head
                   {"virtual_time", options.fast},
                   {"tracking", options.tracking == Tracking::model ? "model" : "images"},
                   {"assessed", options.assess},
+                  {"task", parseJson(task_json).value("id", "")},
                   {"report", jsonOf(head)}});
+  if (head.page) of_task["report"]["others"] = othersLike(options, head.simulated, task_json);
+  info.task_json = task_json;
   info.session_json = sessionText(std::move(of_task), options);
   return info;
 }
@@ -318,7 +323,8 @@ ReportHead headIn(const record::SessionInfo& info, const std::string& file) {
 report::SessionPage pageOf(const ReportHead& head, const ReportTail& tail,
                            const std::filesystem::path& evidence, training::Engine engine,
                            const std::vector<progress::JudgedTrial>& trials) {
-  report::SessionPage page = evidence::whatWasNoted(record::SessionReader(evidence));
+  const record::SessionReader session(evidence);
+  report::SessionPage page = evidence::whatWasNoted(session);
   page.title = head.title;
   page.trainee = head.trainee;
   page.simulated = head.simulated;
@@ -326,6 +332,9 @@ report::SessionPage pageOf(const ReportHead& head, const ReportTail& tail,
   page.station = head.station;
   page.notes = tail.notes;
   page.next = progress::practiseNext(engine, trials);
+  page.engine = engine;
+  page.judged = trials;
+  page.others = othersBeside(session.info());
   return page;
 }
 

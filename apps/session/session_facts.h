@@ -68,6 +68,7 @@ ReportHead headOf(const SessionOptions& options, const std::string& title,
 nlohmann::json jsonOf(const ReportHead& head);
 /// What every task tells the evidence of its session alike; `of_task`: what it tells itself.
 record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head,
+                           const std::string& task_json,
                            nlohmann::json of_task = nlohmann::json::object());
 /// Read again. Of evidence that was made before it had a "report": what there is. Throws Error for
 /// a text that is damaged.

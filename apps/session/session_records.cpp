@@ -2,9 +2,14 @@
 
 #include <cstdio>
 
+#include <nlohmann/json.hpp>
+
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "apps/evidence/evidence_records.h"
+#include "apps/evidence/expert_ranges.h"
+#include "apps/training/engine.h"
 
 namespace palpa::session {
 namespace {
@@ -38,6 +43,53 @@ void checkTrainee(SessionOptions& o) {
   } catch (const record::StoreUnreachable& e) {
     std::fprintf(stderr, "palpa: %s\n", e.what());
   }
+}
+
+namespace {
+
+/// What a session's trials will differ in, in the words of the practice pages (`PracticeTrial`).
+std::string conditionOf(const SessionOptions& o, training::Engine engine) {
+  if (engine == training::Engine::search) return o.blocks ? "" : o.mode;
+  if (engine == training::Engine::friction && o.sort) return "put in order";
+  if (o.augment) return "cues on";
+  return o.guidance ? "guided" : "";
+}
+
+}  // namespace
+
+nlohmann::json othersLike(const SessionOptions& o, bool simulated, const std::string& task_json) {
+  const nlohmann::json task = parseJson(task_json);
+  const std::string id = task.value("id", "");
+  const auto engine = training::engineNamed(task.value("engine", "needle"));
+  nlohmann::json groups = nlohmann::json::array();
+  if (const auto experts = evidence::shippedExperts(id)) groups.push_back(jsonOf(*experts));
+  if (o.records.empty() || !engine || (*engine == training::Engine::search && o.blocks))
+    return groups;
+  try {
+    record::RecordStore store(o.records);
+    const std::string stored = *engine == training::Engine::needle ? id : training::nameOf(*engine);
+    const std::string condition = conditionOf(o, *engine);
+    evidence::PracticeChoice choice;
+    choice.task = stored;
+    choice.task_id = id;
+    for (const progress::Series& series : progress::seriesOf(evidence::practiceIn(store, choice)))
+      if (series.condition == condition && series.simulated == simulated &&
+          series.force_feedback == o.force_feedback)
+        if (const auto others = progress::othersIn(series, o.trainee))
+          groups.push_back(jsonOf(*others));
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "palpa: the report will show nobody beside (%s)\n", e.what());
+  }
+  return groups;
+}
+
+std::vector<progress::Group> othersBeside(const record::SessionInfo& info) {
+  std::vector<progress::Group> groups;
+  const nlohmann::json session = parseJson(info.session_json);
+  const nlohmann::json report = session.value("report", nlohmann::json::object());
+  for (const nlohmann::json& group : report.value("others", nlohmann::json::array()))
+    groups.push_back(progress::groupIn(group));
+  return groups;
 }
 
 std::unique_ptr<record::PendingHold> noteForRecords(const SessionOptions& o,

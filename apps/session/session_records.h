@@ -3,7 +3,12 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "apps/assess/progress/standing.h"
+#include "apps/record/session_file.h"
 #include "apps/record/store/delivery.h"
 #include "apps/session/session_options.h"
 
@@ -15,6 +20,14 @@ namespace palpa::session {
 /// reached now are named in one line and do not stop a session. The usual T000 who is not in the
 /// records is nobody: `options.records` is emptied, with a word.
 void checkTrainee(SessionOptions& options);
+
+/// Experts of the task (its text as the evidence has it), and, where the records hold enough of
+/// them, others who train in it as this session does: of the same kind of person, with the same
+/// forces and aids. What cannot be reached now is left out.
+nlohmann::json othersLike(const SessionOptions& options, bool simulated,
+                          const std::string& task_json);
+/// Read again from a session's evidence: as they were when it began.
+std::vector<progress::Group> othersBeside(const record::SessionInfo& info);
 
 /// With the evidence made and before its first trial, so that a killed session is delivered later;
 /// held as long as the session goes on. Null: nobody is recorded.

@@ -7,6 +7,7 @@
 #include "anatomy/parametric/population.h"
 #include "anatomy/volume/seed_file.h"
 #include "apps/assess/competence/form.h"
+#include "apps/evidence/expert_ranges.h"
 #include "apps/presentation/presentation.h"
 #include "apps/station/material_files.h"
 #include "apps/station/station_file.h"
@@ -354,6 +355,14 @@ std::vector<Kind> patientKinds() {
        .stricter = {"/direction(_L)?/.*"},  // a unit vector
        .forgiving = {},
        .elsewhere = {}},
+      {.name = "expert_ranges",
+       .samples = {{"tasks/expert_ranges.json", json::object()}},
+       .read = [](const fs::path& file) { evidence::readExpertRanges(file); },
+       // Names of figures are the program's; low, middle and high are in their order.
+       .stricter = {"/tasks/[^/]*/figures.*"},
+       .forgiving = {},
+       .elsewhere = {},
+       .free = {"/tasks"}},
       {.name = "interactive_procedures",
        .samples = {{"interactions/procedures.json", json::object()}},
        .read = [](const fs::path& file) { calibration::readProcedures(file); },

@@ -41,11 +41,6 @@ namespace {
 constexpr std::size_t kAroundPause =
     3;  // trials on each side: more of them would relearn what was lost
 
-std::vector<double> finite(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  return values;
-}
-
 RetentionGap gapAt(const Series& series, const std::string& metric, std::size_t first, int days) {
   std::vector<double> before, after;
   for (std::size_t i = first - std::min(first, kAroundPause); i < first; ++i)

@@ -142,17 +142,7 @@ std::vector<std::string> practiseNext(const PracticeView& practice) {
 }
 
 std::vector<std::string> practiseNext(Engine engine, const std::vector<JudgedTrial>& session) {
-  std::vector<PracticeTrial> practice;
-  for (const JudgedTrial& trial : session) {
-    PracticeTrial one;
-    one.engine = engine;
-    one.role = trial.role;
-    one.outcome = trial.outcome;
-    for (const metrics::MetricValue& figure : trial.figures)
-      one.figures.set(figure.name, figure.value);
-    if (counts(one)) practice.push_back(std::move(one));
-  }
-  return practiseNext({engine, practice});
+  return practiseNext({engine, practiceOf(engine, session)});
 }
 
 namespace {

@@ -41,12 +41,6 @@ std::vector<ErrorCount> errorsIn(const PracticeView& practice);
 /// same on others or again. Empty without a trial.
 std::vector<std::string> practiseNext(const PracticeView& practice);
 
-/// Of a trial that has just been judged what is asked for that.
-struct JudgedTrial {
-  training::Role role = training::Role::none;
-  training::Outcome outcome = training::Outcome::none;
-  std::vector<metrics::MetricValue> figures;
-};
 /// The same after the trials of one session, of which those count that are scored and finished.
 std::vector<std::string> practiseNext(training::Engine engine,
                                       const std::vector<JudgedTrial>& session);

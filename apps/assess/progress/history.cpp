@@ -93,8 +93,27 @@ bool PracticeTrial::succeeded() const {
   return figures[kSuccess] == 1;
 }
 
+std::vector<double> finite(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  return values;
+}
+
 bool counts(const PracticeTrial& trial) {
   return training::countsAsScored(trial.role, trial.outcome) && !trial.figures.empty();
+}
+
+std::vector<PracticeTrial> practiceOf(Engine engine, const std::vector<JudgedTrial>& session) {
+  std::vector<PracticeTrial> practice;
+  for (const JudgedTrial& trial : session) {
+    PracticeTrial one;
+    one.engine = engine;
+    one.role = trial.role;
+    one.outcome = trial.outcome;
+    for (const metrics::MetricValue& figure : trial.figures)
+      one.figures.set(figure.name, figure.value);
+    if (counts(one)) practice.push_back(std::move(one));
+  }
+  return practice;
 }
 
 bool failed(const PracticeTrial& trial) {

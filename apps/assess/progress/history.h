@@ -65,6 +65,16 @@ struct PracticeTrial {
 /// Scored and finished: everything else is counted apart.
 bool counts(const PracticeTrial& trial);
 
+/// Of a trial that has just been judged what is asked for that.
+struct JudgedTrial {
+  training::Role role = training::Role::none;
+  training::Outcome outcome = training::Outcome::none;
+  std::vector<metrics::MetricValue> figures;
+};
+/// Of a session's trials those that count, as practice.
+std::vector<PracticeTrial> practiceOf(training::Engine engine,
+                                      const std::vector<JudgedTrial>& session);
+
 /// A trial that is a failure to whoever judges practice: without success, or of a needle one that
 /// touched lung or artery or took more than three passes.
 bool failed(const PracticeTrial& trial);
@@ -83,6 +93,9 @@ struct PracticeView {
       std::string_view metric) const;  ///< one a trial; not a number where it does not apply
   std::size_t successes() const;
 };
+
+/// Without those that are not a number.
+std::vector<double> finite(std::vector<double> values);
 
 /// Of each trial whether it failed.
 std::vector<bool> failuresIn(const PracticeView& practice);

@@ -191,7 +191,7 @@ void writeComparisonPage(Html& html, const ComparisonReport& report) {
         const auto section = html.in("section", {{"class", "card"}});
         writePictures(html, report.pictures, PicturesOf::session);
       }
-      writeAppendix(html, report);
+      writeSessionEnd(html, report);
     }
     const auto footer = html.in("footer");
     html.element("p", {{"class", "muted"}},

@@ -68,7 +68,7 @@ void writePage(Html& html, const SessionReport& report) {
       writeTrials(html, report);
       writeOverview(html, report.trials);
       if (report.parts.augmented) writeSubtaskSection(html, report.parts);
-      writeAppendix(
+      writeSessionEnd(
           html, report,
           [&] {
             if (!report.parts.augmented) writeSubtaskSection(html, report.parts);

@@ -1,5 +1,7 @@
 #include "apps/report/page/session_page.h"
 
+#include "apps/report/page/standing.h"
+
 namespace palpa::report {
 namespace {
 
@@ -38,8 +40,9 @@ void writeSessionHeader(Html& html, const SessionPage& page, std::size_t trials,
   more();
 }
 
-void writeAppendix(Html& html, const SessionPage& page, const std::function<void()>& more,
-                   const std::function<void()>& terms) {
+void writeSessionEnd(Html& html, const SessionPage& page, const std::function<void()>& more,
+                     const std::function<void()>& terms) {
+  writeStanding(html, page.engine, page.judged, page.others);
   const auto appendix = html.in("details", {{"class", "card appendix"}});
   html.element("summary", "How it was done: the task, the station, what the words mean");
   writeFacts(html, "Where this task stands", page.taxonomy);

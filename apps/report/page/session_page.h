@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/assess/progress/standing.h"
 #include "apps/report/page/html.h"
 #include "apps/report/page/page_parts.h"
+#include "apps/training/engine.h"
 
 namespace palpa::report {
 
@@ -24,6 +26,10 @@ struct SessionPage {
   std::string when;        ///< "30 November 2026, 09:14"; empty in virtual time
   bool simulated = false;  ///< operator or bench are simulated: said on top
   std::vector<Remark> remarks;
+  /// How these trials stand beside others: of whom and, by the engine's figures, what.
+  training::Engine engine = training::Engine::needle;
+  std::vector<progress::JudgedTrial> judged;
+  std::vector<progress::Group> others;
   std::vector<std::string> next;  ///< what to practise next, in words that follow "Practise next:"
   std::vector<Fact> taxonomy;     ///< "Where this task stands"
   std::vector<Fact> station;      ///< device, camera, display, rates
@@ -47,7 +53,7 @@ void writeSessionHeader(
 
 /// How it was done, folded: who reads a page that was mailed looks at its trials first. `more`: of
 /// a task's own, before the station's; `terms` explains words, below all.
-void writeAppendix(
+void writeSessionEnd(
     Html& html, const SessionPage& page, const std::function<void()>& more = [] {},
     const std::function<void()>& terms = nullptr);
 

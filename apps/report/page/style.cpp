@@ -209,6 +209,18 @@ svg .area{stroke:none;fill:var(--blue);fill-opacity:.12}
 svg .inside-organ{fill:var(--bad);fill-opacity:.3}
 svg .wall{stroke:var(--ink);stroke-width:2}
 .scale{display:block;width:100%;max-width:320px;height:auto}
+.standing{display:block;width:100%;height:36px;border-radius:4px}
+.standing .group{fill:var(--phase)}
+.standing .group.first{fill:var(--blue);fill-opacity:.45}
+.standing .middle{fill:var(--ink)}
+.standing .here{fill:var(--bad)}
+.standing-row p{margin:.9rem 0 .3rem}
+.standing-row p.muted{margin:.3rem 0 0}
+.standing-key{list-style:none;margin:1.2rem 0 0;padding:0;font-size:.875rem;color:var(--muted)}
+.swatch{display:inline-block;width:1.1rem;height:.7rem;margin-right:.5rem;border-radius:2px;
+  background:var(--phase)}
+.swatch.first{background:var(--blue);opacity:.45}
+.swatch.here{width:.3rem;height:.9rem;margin:0 .9rem 0 .4rem;background:var(--bad);vertical-align:-.1rem}
 @media (max-width:899px){
   main,header,footer{padding-left:12px;padding-right:12px}
   .card{padding:20px 16px}

@@ -71,7 +71,7 @@ void writePalpationPage(Html& html, const PalpationReport& report) {
       writePalpationTotals(html, report.trials, report.standard);
       writePalpations(html, report);
       if (report.parts.augmented) writeSubtaskSection(html, report.parts);
-      writeAppendix(
+      writeSessionEnd(
           html, report,
           [&] {
             if (!report.parts.augmented) writeSubtaskSection(html, report.parts);

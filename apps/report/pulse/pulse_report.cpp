@@ -137,7 +137,7 @@ void writePulsePage(Html& html, const PulseReport& report) {
         const auto section = html.in("section", {{"class", "card"}});
         writePictures(html, report.pictures, PicturesOf::session);
       }
-      writeAppendix(html, report);
+      writeSessionEnd(html, report);
     }
     const auto footer = html.in("footer");
     html.element("p", {{"class", "muted"}}, kPulseSource);

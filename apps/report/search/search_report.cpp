@@ -56,7 +56,7 @@ void writeSearchMain(Html& html, const SearchReport& report) {
     const auto section = html.in("section", {{"class", "card"}});
     writePictures(html, report.pictures, PicturesOf::session);
   }
-  writeAppendix(
+  writeSessionEnd(
       html, report, [] {}, [&] { writeSearchGlossary(html); });
 }
 
