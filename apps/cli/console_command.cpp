@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kShortestToken = 16;
 
 struct ConsoleOptions {
-  std::string listen = "127.0.0.1", token_file, records, home, station;
+  std::string listen = "127.0.0.1", token_file, records, home, station, room_camera;
   std::vector<std::string> names;
   int port = 0;
   bool open = true;
@@ -59,6 +59,7 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.place.sockets = os::socketFolder();
   s.place.version = PALPA_VERSION;
   s.place.display = std::getenv("DISPLAY") != nullptr;
+  s.place.room_camera = o.room_camera;
   s.address = o.listen;
   s.port = o.port;
   s.token = tokenIn(o.token_file);
@@ -122,6 +123,11 @@ void addConsole(CLI::App& program) {
                    "Station file to use from now on (default: the last one used; at first the "
                    "virtual bench)")
       ->type_name("FILE");
+  command
+      ->add_option("--room-camera", o->room_camera,
+                   "Camera that can film a session's room (a device such as /dev/video2; or a film, "
+                   "to try it): offered where a session is begun, for those who agree")
+      ->type_name("CAMERA");
   command->add_flag_callback(
       "--no-open", [o] { o->open = false; }, "Do not open a browser");
   addRecordsArgument(*command, o->records);

@@ -132,6 +132,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   addLiveRoutes(server, console);
   addRatingRoutes(server, console);
   addReplayRoutes(server, console);
+  addRoomRoutes(server, console);
   addOwnRoutes(server, console);
   checkHealth(console);
   const Serving serving(server);

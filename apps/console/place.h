@@ -14,7 +14,8 @@ struct ConsolePlace {
   std::string records;          ///< of trainees: a file or a server
   std::string sockets;          ///< folder of local sockets
   std::string version;
-  bool display = false;  ///< a window can be opened: a person may hold the tool
+  std::string room_camera;  ///< films those who agree; empty: there is none
+  bool display = false;     ///< a window can be opened: a person may hold the tool
 
   std::filesystem::path settings() const { return home / "settings.json"; }
   std::filesystem::path sessions() const { return home / "sessions"; }

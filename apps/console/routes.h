@@ -42,6 +42,7 @@ void addSessionRoutes(WebServer& server, Console& console);  ///< tasks, session
 void addLiveRoutes(WebServer& server, Console& console);     ///< events and pictures as they happen
 void addRatingRoutes(WebServer& server, Console& console);   ///< marks of a rater, the verdict
 void addReplayRoutes(WebServer& server, Console& console);   ///< a trial on one timeline
+void addRoomRoutes(WebServer& server, Console& console);     ///< the film of the room
 void addOwnRoutes(WebServer& server, Console& console);      ///< a trainee's own results
 
 void checkHealth(Console& console);

@@ -62,6 +62,7 @@ SessionWish readWish(const nlohmann::json& asked) {
   wish.assess = flagIn(asked, "assess", false);
   wish.force_feedback = flagIn(asked, "force_feedback", true);
   wish.sort = flagIn(asked, "sort", false);
+  wish.film = flagIn(asked, "film", false);
   wish.fingers = static_cast<int>(numberIn(asked, "fingers", 1, 1, 2));
   wish.surface = textIn(asked, "surface", "");
   wish.trials = static_cast<int>(numberIn(asked, "trials", 1, 1, 50));
@@ -87,6 +88,10 @@ std::vector<std::string> sessionCommand(const Console& c, const TaskChoice& task
   if (wish.performer != "person" || !c.place.display) a.insert(a.end(), {"--display", "offscreen"});
   if (!wish.trainee.empty())
     a.insert(a.end(), {"--trainee", wish.trainee, "--records", c.place.records});
+  if (wish.film && c.place.room_camera.empty())
+    throw UsageError("is not known here", "a camera in the room",
+                     "Begin the console with --room-camera");
+  if (wish.film) a.insert(a.end(), {"--film-room", c.place.room_camera, "--film-agreed"});
   addStation(c.place, kind, &a);
   return a;
 }

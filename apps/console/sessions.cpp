@@ -202,6 +202,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
              {"trainee", wish.trainee},
              {"started_utc", utcNow()},
              {"assessed", wish.assess},
+             {"filmed", wish.film},
              {"simulated", wish.simulated},
              {"study", !wish.protocol.empty()},
              {"blind", wish.blind},

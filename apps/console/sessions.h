@@ -27,6 +27,7 @@ struct SessionWish {
   std::string surface;  ///< what lies on the virtual bench; empty: as the task has it
   int trials = 1;
   std::uint64_t seed = 1, patient_seed = 0;
+  bool film = false;       ///< of the room: who trains has agreed, for this session
   std::string protocol;    ///< of a study: its file; the task then follows from it
   bool simulated = false;  ///< who performs, or the station
   bool blind = false;      ///< of a study: an educator must not be told what was drawn

@@ -60,6 +60,7 @@ json me(const Console& c, bool entered) {
   json all{{"version", c.place.version}, {"entered", entered}, {"page_key", c.guard.pageKey()}};
   if (!entered) return all;
   all["display"] = c.place.display;
+  all["room_camera"] = !c.place.room_camera.empty();
   all["token"] = c.guard.asksForToken();  // others can come to it, too
   all["stations"] = json::array();
   for (const StationKind kind : kStationKinds) all["stations"].push_back(described(c, kind));

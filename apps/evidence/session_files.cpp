@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kEvidenceName = "session.palpa";
 constexpr const char* kBesideDatabases[] = {"", "-wal", "-shm", "-journal"};
 constexpr std::string_view kTexts[] = {"report.html", "trials.csv", "trial.html"};
-constexpr std::string_view kOthers[] = {"registration.csv", "camera.mjpeg", "camera.mjpeg.csv"};
+constexpr std::string_view kOthers[] = {"registration.csv", "camera.mjpeg", "camera.mjpeg.csv",
+                                        "room.mjpeg", "room.mjpeg.csv"};
 constexpr std::string_view kPages[] = {"trainee.html", "cohort.html"};
 
 template <std::size_t n>

@@ -188,4 +188,11 @@ std::int64_t CameraActivity::step(std::int64_t now_ns) {
   return now_ns + settings_.latency_ns;
 }
 
+std::int64_t exposureOf(const ar::Frame& frame, double latency_s, const Clock& clock) {
+  constexpr std::int64_t kOldest = 2 * kSecond;
+  const std::int64_t now = clock.now(), stamped = clock.ofMonotonic(frame.t_exposure_ns);
+  return (stamped <= now && stamped > now - kOldest ? stamped : now) -
+         std::llround(1e9 * latency_s);
+}
+
 }  // namespace palpa::runtime

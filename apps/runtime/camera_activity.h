@@ -7,6 +7,7 @@
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
+#include "apps/runtime/clock.h"
 #include "apps/runtime/own_thread.h"
 #include "calibration/camera_model.h"
 
@@ -83,5 +84,9 @@ class CameraActivity final : public Activity {
   std::uint64_t number_ = 0;
   OwnThread<CameraView> beside_;  ///< of virtual time; last: its work uses all of the above
 };
+
+/// When a webcam's picture was exposed, session time. A stamp that cannot be (none, of another
+/// clock) gives way to the time of arrival.
+std::int64_t exposureOf(const ar::Frame& frame, double latency_s, const Clock& clock);
 
 }  // namespace palpa::runtime

@@ -88,40 +88,51 @@ std::filesystem::path claimed(const std::filesystem::path& file) {
 
 }  // namespace
 
-VideoRecorder::VideoRecorder(const std::filesystem::path& folder)
-    : film_(claimed(folder / "camera.mjpeg")),
+PictureFile::PictureFile(const std::filesystem::path& folder, const std::string& name,
+                         const std::string& columns)
+    : film_(claimed(folder / (name + ".mjpeg"))),
       pictures_file_(film_, std::ios::binary),
       table_(claimed(film_.string() + ".csv")) {
   if (!pictures_file_ || !table_)
     throw Error("cannot be written", film_.string(), "Choose another --out");
   ar::loadCodecs();
-  table_ << "number,t_exposure_ns,source,fault,tracking,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_"
-            "y,q_z\n";
+  table_ << "number,t_exposure_ns," << columns << '\n';
 }
 
-void VideoRecorder::add(const CameraView& view) {
-  if (!trouble_.empty() || !view.picture || view.picture->empty()) return;
+void PictureFile::add(const cv::Mat& picture, std::int64_t t_ns, int quality,
+                      const std::string& fields) {
+  if (!trouble_.empty()) return;
   const std::vector<std::uint8_t> jpeg =
-      ar::encode(".jpg", *view.picture, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+      ar::encode(".jpg", picture, {cv::IMWRITE_JPEG_QUALITY, quality});
   pictures_file_.write(reinterpret_cast<const char*>(jpeg.data()),
                        static_cast<std::streamsize>(jpeg.size()));
-  table_ << pictures_ << ',' << view.t_exposure_ns << ",\"" << view.source << "\","
-         << nameOf(view.fault) << ',' << nameOf(view.tracking);
+  table_ << pictures_ << ',' << t_ns << ',' << fields << '\n';
+  if (!pictures_file_.flush() || !table_.flush()) {
+    trouble_ = "the video could not be written to its end: is the disk full?";
+    return;
+  }
+  ++pictures_;
+  bytes_ += jpeg.size();
+}
+
+VideoRecorder::VideoRecorder(const std::filesystem::path& folder)
+    : file_(folder, "camera",
+            "source,fault,tracking,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_y,q_z") {}
+
+void VideoRecorder::add(const CameraView& view) {
+  if (!view.picture || view.picture->empty()) return;
+  std::string fields = '"' + view.source + "\"," + nameOf(view.fault) + ',' + nameOf(view.tracking);
   if (view.pose) {
     const PackedPose X = pack(view.pose->X_CW);
     char pose[200];
     std::snprintf(pose, sizeof pose, ",%d,%.4f,%.7f,%.7f,%.7f,%.9f,%.9f,%.9f,%.9f",
                   view.pose->points, view.pose->rms_px, X.p[0], X.p[1], X.p[2], X.q[0], X.q[1],
                   X.q[2], X.q[3]);
-    table_ << pose;
+    fields += pose;
   } else {
-    table_ << ",0,,,,,,,,";
+    fields += ",0,,,,,,,,";
   }
-  table_ << '\n';
-  if (!pictures_file_.flush() || !table_.flush())
-    trouble_ = "the video could not be written to its end: is the disk full?";
-  else
-    ++pictures_;
+  file_.add(*view.picture, view.t_exposure_ns, kQuality, fields);
 }
 
 }  // namespace palpa::runtime

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
@@ -41,23 +42,38 @@ class RecorderActivity final : public Activity {
   std::int64_t gives_back_ns_ = kKeepsFree_ns;
 };
 
-/// A session's pictures beside their poses: "camera.mjpeg", JPEG after JPEG (any player shows it;
-/// what is on the disk stays readable if the program is killed), and "camera.mjpeg.csv": number,
-/// time of exposure (session, ns), source ("virtual camera": simulated), fault, tracking, pose of
-/// the board in the camera (m, quaternion), as measured. One writer, on the camera's thread. A full
-/// disk ends the recording, not the session: `trouble`.
-class VideoRecorder {
+/// Pictures with their times: NAME.mjpeg, JPEG after JPEG (any player shows it; what is on the disk
+/// stays readable if the program is killed), and NAME.mjpeg.csv: number, time of exposure (session,
+/// ns) and what else its header names. One writer, one thread. A full disk ends it: `trouble`.
+class PictureFile {
  public:
-  explicit VideoRecorder(const std::filesystem::path& folder);
-  void add(const CameraView& view);
+  /// `columns`: the table's, after the first two. Throws Error where the files cannot be made.
+  PictureFile(const std::filesystem::path& folder, const std::string& name,
+              const std::string& columns);
+  /// `quality`: JPEG's, to 100; `fields`: those columns of this picture.
+  void add(const cv::Mat& picture, std::int64_t t_ns, int quality, const std::string& fields);
+  std::uint64_t bytes() const { return bytes_; }
   std::uint64_t pictures() const { return pictures_; }
   const std::string& trouble() const { return trouble_; }  ///< empty: everything was kept
 
  private:
   std::filesystem::path film_;
   std::ofstream pictures_file_, table_;
-  std::uint64_t pictures_ = 0;
+  std::uint64_t pictures_ = 0, bytes_ = 0;
   std::string trouble_;
+};
+
+/// A session's pictures beside their poses: a `PictureFile` "camera", with source ("virtual camera": simulated), fault, tracking, pose of
+/// the board in the camera (m, quaternion), as measured. On the camera's thread.
+class VideoRecorder {
+ public:
+  explicit VideoRecorder(const std::filesystem::path& folder);
+  void add(const CameraView& view);
+  std::uint64_t pictures() const { return file_.pictures(); }
+  const std::string& trouble() const { return file_.trouble(); }
+
+ private:
+  PictureFile file_;
 };
 
 }  // namespace palpa::runtime

@@ -111,15 +111,6 @@ runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mo
   return settings;
 }
 
-/// When a webcam's picture was exposed. A stamp that cannot be (none, of another clock) gives way
-/// to the time of arrival.
-std::int64_t exposureOf(const ar::Frame& frame, double latency_s, const runtime::Clock& clock) {
-  constexpr std::int64_t kOldest = 2 * runtime::kSecond;
-  const std::int64_t now = clock.now(), stamped = clock.ofMonotonic(frame.t_exposure_ns);
-  return (stamped <= now && stamped > now - kOldest ? stamped : now) -
-         std::llround(1e9 * latency_s);
-}
-
 std::optional<ar::Frame> SessionPictures::take(std::int64_t now_ns, std::uint64_t number,
                                                const runtime::Clock& clock) {
   try {
@@ -132,7 +123,7 @@ std::optional<ar::Frame> SessionPictures::take(std::int64_t now_ns, std::uint64_
     if (!frame) return frame;
     frame->number = number;
     frame->t_exposure_ns =
-        source_ == Source::webcam ? exposureOf(*frame, station_.camera_latency_s, clock) : now_ns;
+        source_ == Source::webcam ? runtime::exposureOf(*frame, station_.camera_latency_s, clock) : now_ns;
     return frame;
   } catch (...) {
     if (source_ == Source::webcam) pictures_.reset();  // to be opened anew

@@ -50,6 +50,7 @@ Webcam::Webcam(const WebcamSettings& settings) : impl_(std::make_unique<Impl>())
             sizeText(settings.width, settings.height),
         settings.device,
         "Put a size into the station's file that the camera has, and calibrate it at that size");
+  if (settings.adjusts) return;
   const auto ask = [&](int property, double value, const char* words) {
     if (!impl_->set(property, value)) remarks_.push_back(words);
   };

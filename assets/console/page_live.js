@@ -180,6 +180,7 @@ export async function show({ root, life, params: [id], open }) {
       tags,
       tag(who(hello.trainee)),
       session.blind ? tag("blind study") : tag(hello.assessed ? "assessed" : "practice"),
+      session.filmed ? tag("the room is filmed") : null,
       hello.simulated ? simulatedBadge() : null,
     );
   title(session);

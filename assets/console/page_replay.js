@@ -6,6 +6,7 @@ import { needleTrack } from "./needle_track.js";
 import { loadReplay, momentsOf, trialsBeside } from "./replay_data.js";
 import { Pictures, Player } from "./replay_player.js";
 import { valueAt } from "./scale.js";
+import { roomFilm } from "./room_film.js";
 import { Timeline } from "./timeline.js";
 
 const kLanes = [
@@ -181,6 +182,7 @@ function build({ root, life, id, n, replay, options }) {
     views = h("div", { class: "replay-views" }, mine.node),
     legend = h("div", {}),
     way = h("div", {}),
+    room = h("div", {}),
     problems = h("div", {});
   const timeline = new Timeline({
     title: "Phases, events, force and depth of the trial over time",
@@ -194,6 +196,7 @@ function build({ root, life, id, n, replay, options }) {
   });
   const pictures = new Pictures(mine.img, id, n, replay);
   let track = null,
+    film = null,
     other = null,
     otherPictures = null,
     turn = 0;
@@ -249,6 +252,7 @@ function build({ root, life, id, n, replay, options }) {
   player.onChange((t) => {
     timeline.moveCursor(t);
     track?.at(t);
+    film?.at(t);
     pictures.at(t);
     otherPictures?.at(Math.min(t, other.length));
   });
@@ -256,6 +260,7 @@ function build({ root, life, id, n, replay, options }) {
     views,
     ...playerBar(life, player, 1 / (replay.fps || 5)),
     way,
+    room,
     timeline.node,
     legend,
     h(
@@ -282,6 +287,13 @@ function build({ root, life, id, n, replay, options }) {
     asTable("Data as a table", () => secondsTable(replay)),
   );
   draw();
+  roomFilm(id, n)
+    .then((found) => {
+      film = found;
+      put(room, film?.node);
+      film?.at(player.t);
+    })
+    .catch(() => null);
   let asked = false;
   const showWay = async () => {
     if (asked) return;

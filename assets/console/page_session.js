@@ -94,6 +94,13 @@ function form(tasks, trainees, me, chosenTrainee) {
   const force = tick("Force feedback", true, "Off: the needle is seen, not felt.");
   const order = tick("Put several in order", false, "Off: two surfaces are compared.");
   const fingers = tick("Two fingers", false, "On: side by side, each on a device of its own.");
+  const film = tick(
+    "Film the room, for the debrief",
+    false,
+    "Only if the trainee agrees, to this session: ask first. It stays on this computer, is in no " +
+      "export, and goes when the trainee's records are deleted, or before.",
+  );
+  film.node.hidden = !me.room_camera;
   const surface = choice([["", "as the task has it"]], "");
   const surfaceField = field("What lies there", surface, "On the virtual bench: softer or firmer.");
   const trials = number(1, 1, kMostTrials),
@@ -155,6 +162,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       assess: kind.value() === "assess",
       force_feedback: force.box.checked,
       sort: order.box.checked,
+      film: film.box.checked,
       fingers: fingers.box.checked && !fingers.node.hidden ? 2 : 1,
       surface: surface.value,
       operator: operator.value(),
@@ -190,7 +198,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       "div",
       { class: "grid two" },
       kind.node,
-      h("div", {}, side.node, force.node, order.node, fingers.node, surfaceField),
+      h("div", {}, side.node, force.node, order.node, fingers.node, surfaceField, film.node),
     ),
     h(
       "details",

@@ -51,29 +51,30 @@ export class Player {
 }
 
 /**
- * Shows the picture of a time in `img`: one at a time is fetched, the newest wish wins, so
- * scrubbing does not queue.
+ * Shows one of many pictures in `img`: one at a time is fetched, the newest wish wins, so scrubbing
+ * does not queue.
  */
-export class Pictures {
-  constructor(img, session, trial, replay) {
+class PictureReel {
+  constructor(img) {
     this.img = img;
-    this.replay = replay;
-    this.base = url("/api/sessions", session, "trials", String(trial), "frame");
     this.shown = -1;
     this.wanted = -1;
     this.busy = false;
     this.kept = new Map();
   }
 
-  at(t) {
-    if (!(this.#there() > 0)) return;
-    this.wanted = Math.min(this.#there() - 1, Math.max(0, Math.round(t * (this.replay.fps || 5))));
-    if (!this.busy) this.#load();
+  /** Overridden: how many there are now, and where one is. */
+  there() {
+    return 0;
+  }
+  addressOf(k) {
+    return String(k);
   }
 
-  /** So many are drawn: the first ones, while the rest is under way. */
-  #there() {
-    return this.replay.ready ? this.replay.frames : this.replay.drawn || 0;
+  want(k) {
+    if (!(this.there() > 0)) return;
+    this.wanted = Math.min(this.there() - 1, Math.max(0, k));
+    if (!this.busy) this.#load();
   }
 
   async #load() {
@@ -81,7 +82,7 @@ export class Pictures {
     while (this.wanted !== this.shown) {
       const k = this.wanted,
         next = this.#fetched(k);
-      this.#fetched(Math.min(k + 1, this.#there() - 1)); // the one after it, for playing
+      this.#fetched(Math.min(k + 1, this.there() - 1)); // the one after it, for playing
       try {
         await next.decode();
         this.img.src = next.src;
@@ -96,10 +97,54 @@ export class Pictures {
   #fetched(k) {
     if (!this.kept.has(k)) {
       const picture = new Image();
-      picture.src = `${this.base}/${k}`;
+      picture.src = this.addressOf(k);
       this.kept.set(k, picture);
       if (this.kept.size > 60) this.kept.delete(this.kept.keys().next().value);
     }
     return this.kept.get(k);
+  }
+}
+
+/** Pictures drawn of a trial, so many a second. */
+export class Pictures extends PictureReel {
+  constructor(img, session, trial, replay) {
+    super(img);
+    this.replay = replay;
+    this.base = url("/api/sessions", session, "trials", String(trial), "frame");
+  }
+  at(t) {
+    this.want(Math.round(t * (this.replay.fps || 5)));
+  }
+  /** So many are drawn: the first ones, while the rest is under way. */
+  there() {
+    return this.replay.ready ? this.replay.frames : this.replay.drawn || 0;
+  }
+  addressOf(k) {
+    return `${this.base}/${k}`;
+  }
+}
+
+/** Pictures of the room, each with its own time: [trial's time in s, place in the film, bytes]. */
+export class RoomPictures extends PictureReel {
+  constructor(img, session, pictures) {
+    super(img);
+    this.base = url("/api/sessions", session, "room");
+    this.pictures = pictures;
+  }
+  at(t) {
+    let low = 0,
+      high = this.pictures.length; // the last at or before t is in [low, high)
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.pictures[middle][0] <= t + 1e-6) low = middle;
+      else high = middle;
+    }
+    this.want(low);
+  }
+  there() {
+    return this.pictures.length;
+  }
+  addressOf(k) {
+    return `${this.base}/${this.pictures[k][1]}/${this.pictures[k][2]}`;
   }
 }
