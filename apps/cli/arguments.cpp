@@ -151,6 +151,9 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
           "Where to show it; openxr: on a headset, and on the desktop beside it")
       ->check(oneOf({"auto", "window", "offscreen", kHeadset}))
       ->type_name("auto|offscreen|openxr|window");
+  choice(command, "--sound", o.sound, kOnOff,
+         "Blood in the syringe, alarms and the patient's heart can be heard by whoever sits at the "
+         "window or wears the headset (default on)");
   addWindowArguments(command, o.window);
   addGpuArgument(command);
   command.add_flag("--assess", o.assess,

@@ -124,9 +124,10 @@ void addConsole(CLI::App& program) {
                    "virtual bench)")
       ->type_name("FILE");
   command
-      ->add_option("--room-camera", o->room_camera,
-                   "Camera that can film a session's room (a device such as /dev/video2; or a film, "
-                   "to try it): offered where a session is begun, for those who agree")
+      ->add_option(
+          "--room-camera", o->room_camera,
+          "Camera that can film a session's room (a device such as /dev/video2; or a film, "
+          "to try it): offered where a session is begun, for those who agree")
       ->type_name("CAMERA");
   command->add_flag_callback(
       "--no-open", [o] { o->open = false; }, "Do not open a browser");

@@ -30,6 +30,7 @@ using namespace doctor;
 
 constexpr const char* kMade_utc = "2026-01-01T00:00:00Z";  // no trial is older than this program
 constexpr int kPictures = 30;
+constexpr std::int64_t kSoundAnswers_ns = 3 * runtime::kSecond;  // a server may have to start
 
 struct DoctorOptions {
   std::string station, records, camera, out = "out";
@@ -157,6 +158,7 @@ Findings examined(const DoctorOptions& o) {
                            graphicsCards()};
   }));
   all.push_back(judgeHeadset(headsetRuntime()));
+  all.push_back(judgeSound(sound::askSpeaker(kSoundAnswers_ns)));
   all.push_back(recordsOf(o));
   all.push_back(judgeDisk(measureDisk(o.out)));
   all.push_back(judgeDate(runtime::utcNow(), kMade_utc));

@@ -9,6 +9,7 @@
 #include "apps/cli/usage_words.h"
 #include "apps/os/signals.h"
 #include "apps/session/force_guard.h"
+#include "apps/sound/loudspeaker.h"
 
 namespace {
 
@@ -34,6 +35,7 @@ int tellFailure() {
 /// What went wrong is told once, in our words.
 void quietLibraries() {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  palpa::sound::keepSoundLibrariesQuiet();
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // the same of what reads films: AV_LOG_QUIET
 }
 

@@ -37,6 +37,8 @@ constexpr const char* kSessionExamples = R"(Examples:
       many trials in little time: the board is tracked without drawing the camera's pictures
   palpa subclavian --camera 'shots/left*.jpg' --intrinsics left.yml --board chessboard:9x6:0.025 --fast
       the patient on your own recorded pictures
+  palpa subclavian --sound off
+      in silence: no heart, no blood, no alarm is heard; key S does that during a session
   palpa subclavian --igtl 18944
       the same session in 3D Slicer: there, an OpenIGTLink connector, client, localhost, port 18944)";
 

@@ -197,16 +197,11 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   for (const std::string& more :
        {std::string("--live"), socketOf(id), std::string("--out"), folder.string()})
     arguments.push_back(more);
-  json facts{{"task", wish.task},
-             {"title", wish.title},
-             {"trainee", wish.trainee},
-             {"started_utc", utcNow()},
-             {"assessed", wish.assess},
-             {"filmed", wish.film},
-             {"simulated", wish.simulated},
-             {"study", !wish.protocol.empty()},
-             {"blind", wish.blind},
-             {"trials", wish.trials}};
+  json facts{{"task", wish.task},           {"title", wish.title},
+             {"trainee", wish.trainee},     {"started_utc", utcNow()},
+             {"assessed", wish.assess},     {"filmed", wish.film},
+             {"simulated", wish.simulated}, {"study", !wish.protocol.empty()},
+             {"blind", wish.blind},         {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
   const os::ProcessId process = starter_.start(arguments, folder / kLog);
   facts["pid"] = process.pid;

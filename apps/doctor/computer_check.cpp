@@ -156,6 +156,16 @@ Finding askDrawing(const std::function<Drawing()>& draw) {
   }
 }
 
+Finding judgeSound(const sound::SpeakerFound& found) {
+  using Speaker = sound::Loudspeaker;
+  constexpr const char* kSilent = ". Sessions go on in silence";
+  if (found.state == Speaker::State::opening)
+    return {"sound", State::note, "the sound server does not answer",
+            std::string("Log out and in again, or restart the computer") + kSilent};
+  if (found.state == Speaker::State::playing) return {"sound", State::well, "on " + found.words};
+  return {"sound", State::absent, found.words + kSilent};
+}
+
 fs::path headsetRuntime() {
   if (const std::string given = environment("XR_RUNTIME_JSON"); !given.empty()) return given;
   const std::string home = environment("HOME"), config = environment("XDG_CONFIG_HOME");

@@ -9,6 +9,7 @@
 #include "apps/doctor/finding.h"
 #include "apps/doctor/picture_facts.h"
 #include "apps/runtime/clock.h"
+#include "apps/sound/loudspeaker.h"
 
 namespace palpa::doctor {
 
@@ -54,6 +55,9 @@ Finding judgeDesktop(const Desktop& desktop);
 
 /// Pictures can be drawn, and by what. `draw` makes a context and says which, or throws.
 Finding askDrawing(const std::function<Drawing()>& draw);
+
+/// What a session's sounds would be played on.
+Finding judgeSound(const sound::SpeakerFound& found);
 
 /// A headset's OpenXR runtime, by the file that names it: its library is there. `file` empty: none
 /// is installed.

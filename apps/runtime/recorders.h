@@ -63,8 +63,9 @@ class PictureFile {
   std::string trouble_;
 };
 
-/// A session's pictures beside their poses: a `PictureFile` "camera", with source ("virtual camera": simulated), fault, tracking, pose of
-/// the board in the camera (m, quaternion), as measured. On the camera's thread.
+/// A session's pictures beside their poses: a `PictureFile` "camera", with source ("virtual
+/// camera": simulated), fault, tracking, pose of the board in the camera (m, quaternion), as
+/// measured. On the camera's thread.
 class VideoRecorder {
  public:
   explicit VideoRecorder(const std::filesystem::path& folder);

@@ -14,9 +14,9 @@
 namespace palpa::runtime {
 
 /// ROOM FILM: what a second camera sees of the person and the station, for talking a trial over
-/// afterwards: a `PictureFile` "room" beside the evidence, eight pictures a second, at most 640 wide.
-/// Nothing is measured in it. A camera that fails is asked again once a second, and a full disk ends
-/// the film; neither stops the session.
+/// afterwards: a `PictureFile` "room" beside the evidence, eight pictures a second, at most 640
+/// wide. Nothing is measured in it. A camera that fails is asked again once a second, and a full
+/// disk ends the film; neither stops the session.
 class RoomFilm final : public Activity {
  public:
   using Open = std::function<std::unique_ptr<ar::Camera>()>;

@@ -13,6 +13,7 @@
 #include "apps/evidence/recorded_session.h"
 #include "apps/report/needle/session_report.h"
 #include "apps/session/needle_world.h"
+#include "apps/session/output_folder.h"
 #include "apps/session/session_facts.h"
 #include "apps/station/overlay_error.h"
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
+#include "apps/assess/needle/aspiration.h"
 #include "apps/record/session_file.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/session/needle_world.h"
@@ -65,6 +67,11 @@ std::vector<std::pair<std::int64_t, assess::Taken>> saidIn(const station::Statio
     if (event.is(runtime::EventKind::answer) && event.value >= 1 && event.value <= 3)
       said.emplace_back(event.t_ns, static_cast<assess::Taken>(static_cast<int>(event.value) - 1));
   return said;
+}
+
+/// Where the task is about blood, as an artery's pulses: a bone has no heart.
+std::optional<double> heartOf(const NeedleWorld& world) {
+  return world.task.goal ? std::nullopt : std::optional(assess::kHeart_per_min);
 }
 
 int skinOf(const anatomy::Patient& patient) {
@@ -172,6 +179,7 @@ class NeedleSession {
        .X_WA = world_.X_WA,
        .tick = tickConfig(options_, world_),
        .near = [this](const haptics::FlightRecord& record) { return nearMiss(record); },
+       .heart_per_min = heartOf(world_),
        .cost = cost_},
       needleHands(options_, world_),
       channels_,

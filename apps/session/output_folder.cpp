@@ -1,13 +1,16 @@
 #include "apps/session/output_folder.h"
 
 #include <cerrno>
+#include <cstdio>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
 #include "apps/record/session_file.h"
 #include "apps/record/store/delivery.h"
 #include "apps/runtime/clock.h"
+#include "apps/session/session_frame.h"
 
 namespace palpa::session {
 namespace {
@@ -67,6 +70,23 @@ OutputFolder::OutputFolder(const std::string& given, const std::string& command)
 
 OutputFolder::~OutputFolder() {
   if (!kept_ && !has_older_session_ && !removedEmpty(path_ / kEvidence)) written_.keep();
+}
+
+void sayWritten(const SessionRun& run, const std::filesystem::path& folder, const char* report,
+                const char* row) {
+  std::printf("Written to %s:\n  report.html     %s: open this first\n", folder.c_str(), report);
+  std::printf("  trials.csv      one row a %s\n", row);
+  std::printf("  session.palpa   the evidence: every tick, for replay\n");
+  if (!run.registration.empty())
+    std::printf("  registration.csv  how the board was found in each picture\n");
+  if (run.video)
+    std::printf(
+        "  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, "
+        "and where the board was\n",
+        static_cast<unsigned long long>(run.video->pictures));
+  if (!run.pictures.empty())
+    std::printf("  view-*.png      %s of the marked moments\n",
+                counted(run.pictures.size(), "picture").c_str());
 }
 
 }  // namespace palpa::session

@@ -7,6 +7,8 @@
 
 namespace palpa::session {
 
+struct SessionRun;
+
 /// `given`, else out/<command>-<time>; made where it is missing, for this user alone, and proven
 /// writable before any work is done. Throws Error.
 std::filesystem::path makeOutputFolder(const std::string& given, const std::string& command);
@@ -31,5 +33,10 @@ class OutputFolder {
   const bool has_older_session_;
   bool kept_ = false;
 };
+
+/// Says which files a session left in its folder. `report`: what its page tells; `row`: of what
+/// the table has one each.
+void sayWritten(const SessionRun& run, const std::filesystem::path& folder, const char* report,
+                const char* row);
 
 }  // namespace palpa::session

@@ -73,6 +73,8 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
       {"On the screen", shownIn(options).name, presentation::describe(shownIn(options))},
       {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
       {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
+  if (options.display == scene::Display::window || options.headset)
+    facts.push_back({"Sound", mayHear(options) ? "on" : "off", ""});
   if (options.tracking == Tracking::model)
     facts.push_back(
         {"Board", "tracked by a model",
@@ -295,6 +297,7 @@ record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head
                   {"tracking", options.tracking == Tracking::model ? "model" : "images"},
                   {"assessed", options.assess},
                   {"task", parseJson(task_json).value("id", "")},
+                  {"sound", mayHear(options)},
                   {"report", jsonOf(head)}});
   if (head.page) of_task["report"]["others"] = othersLike(options, head.simulated, task_json);
   info.task_json = task_json;

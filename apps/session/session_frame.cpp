@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "anatomy/base/counted.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/uuid.h"
 #include "apps/evidence/told_events.h"
@@ -188,15 +187,19 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
   stage.folder = folder_;
   stage.every_source_picture = pictures_.photographs();
   stage.places = places();
-  if (!options_.live.empty())
+  if (mayHear(options_) && (window_ || head))
+    sound_.emplace(world_.heart_per_min, bus_.stop, executive_->clock());
+  if (sound_ || !options_.live.empty())
     stage.watch = [this](const scene::SceneState& state, const trial::TrialStatus& status,
                          std::int64_t now_ns) { publish(state, status, now_ns); };
   if (!window_) return stage;
-  stage.keys = trial::keysOf({world_.engine, heldBy(devices_), options_.left_handed,
-                              stage.shown.skin == presentation::SkinLook::free,
-                              stage.shown.views == presentation::FixedViews::one});
+  stage.keys =
+      trial::keysOf({world_.engine, heldBy(devices_), options_.left_handed,
+                     stage.shown.skin == presentation::SkinLook::free,
+                     stage.shown.views == presentation::FixedViews::one, sound_.has_value()});
   stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
     trial::handleKeys(input, channels_, bus_.stop);
+    if (sound_) remark(sound_->handle(input.keys));
     if (PointingHand* hand = devices_.pointing())
       hand->handle(input, stage_.view->arGeometry(), now_ns);
     notePlace(now_ns);  // asks the window system, which may take its time: last
@@ -212,9 +215,15 @@ void SessionFrame::notePlace(std::int64_t now_ns) {
   place_asked_ns_ = now_ns;
 }
 
-/// To whoever looks on; without views, in words only.
+/// Goes into the evidence, in words; empty: nothing does.
+void SessionFrame::remark(const std::string& words) {
+  if (!words.empty()) channels_.requests_to_task.push({trial::UserCommand::remark, words});
+}
+
+/// To whoever hears it, and to whoever looks on; without views, in words only.
 void SessionFrame::publish(const scene::SceneState& state, const trial::TrialStatus& status,
                            std::int64_t now_ns) {
+  if (sound_) remark(sound_->see(state, status, now_ns));
   if (!live_) return;
   live_->show(state.hud, status, now_ns);
   if (stage_.view && picture_wanted_) live_->picture(stage_.view->capture(), now_ns);
@@ -283,6 +292,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   std::optional<Meanwhile> meanwhile;
   if (options_.meanwhile && mode_ == runtime::TimeMode::virtual_time)
     executive_->add(meanwhile.emplace(options_, channels_, bus_.stop), {10, false, false});
+  if (sound_) executive_->add(*sound_, {11, false, false});
   igtl.addTo(*executive_);
   executive_->whenStuck(
       [&](const runtime::Executive::Stuck& stuck, const std::string& failure) {
@@ -309,6 +319,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   live_.reset();
   if (place_) rememberWindow(*place_);
   SessionRun run = leftBy(task, scene);
+  if (sound_) run.devices.push_back({"Sound as it was", sound_->facts(), ""});
   for (report::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
   run.dropped = recorder.dropped() + task.lostTicks();
   return run;
@@ -329,23 +340,6 @@ SessionRun SessionFrame::leftBy(const trial::TrialTask& task, const trial::Trial
   run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;
   run.quit = task.quit();
   return run;
-}
-
-void sayWritten(const SessionRun& run, const std::filesystem::path& folder, const char* report,
-                const char* row) {
-  std::printf("Written to %s:\n  report.html     %s: open this first\n", folder.c_str(), report);
-  std::printf("  trials.csv      one row a %s\n", row);
-  std::printf("  session.palpa   the evidence: every tick, for replay\n");
-  if (!run.registration.empty())
-    std::printf("  registration.csv  how the board was found in each picture\n");
-  if (run.video)
-    std::printf(
-        "  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, "
-        "and where the board was\n",
-        static_cast<unsigned long long>(run.video->pictures));
-  if (!run.pictures.empty())
-    std::printf("  view-*.png      %s of the marked moments\n",
-                counted(run.pictures.size(), "picture").c_str());
 }
 
 }  // namespace palpa::session

@@ -15,6 +15,7 @@
 #include "apps/session/session_devices.h"
 #include "apps/session/session_pictures.h"
 #include "apps/session/stage.h"
+#include "apps/sound/session_sound.h"
 #include "apps/trial/trial_scene.h"
 #include "apps/trial/trial_task.h"
 #include "apps/twin/virtual_bench.h"
@@ -43,11 +44,6 @@ struct SessionRun {
   bool quit = false;
 };
 
-/// Says which files a session left in its folder. `report`: what its page tells; `row`: of what
-/// the table has one each.
-void sayWritten(const SessionRun& run, const std::filesystem::path& folder, const char* report,
-                const char* row);
-
 /// What a session took of the processor's time, ns; for `palpa bench session` alone.
 struct SessionCost {
   bool by_stage = false;        ///< asked for: `steps` and `drawing_ns`, which cost something
@@ -73,7 +69,10 @@ class SessionFrame {
     std::optional<haptics::PairConfig> pair = {};
     bool fixed_views = true;
     const runtime::FloorSource* floors = nullptr;  ///< of a search
-    live::NearMiss near = {};     ///< told to whoever looks on; empty: nothing is near
+    live::NearMiss near = {};  ///< told to whoever looks on; empty: nothing is near
+    /// Beats a minute of the patient's heart, where it may be heard: in no task in which it would
+    /// tell an answer
+    std::optional<double> heart_per_min = {};
     SessionCost* cost = nullptr;  ///< where it is wanted, in virtual time
   };
   SessionFrame(const SessionOptions& options, const World& world, SessionDevices::Hands hands,
@@ -98,6 +97,7 @@ class SessionFrame {
   /// After the run, apart from what was recorded and what OpenIGTLink's links say.
   SessionRun leftBy(const trial::TrialTask& task, const trial::TrialScene& scene);
   void notePlace(std::int64_t now_ns);
+  void remark(const std::string& words);
   void publish(const scene::SceneState& state, const trial::TrialStatus& status,
                std::int64_t now_ns);
 
@@ -113,6 +113,7 @@ class SessionFrame {
   const std::unique_ptr<scene::StopKey> stop_key_;  ///< of a window, in real time
   runtime::Bus bus_;
   SessionDevices devices_;
+  std::optional<sound::SessionSound> sound_;  ///< where one may be heard
   std::optional<runtime::VideoRecorder> video_;
   std::unique_ptr<live::LiveSession> live_;  ///< while somebody may look on
   bool picture_wanted_ = false;              ///< by one of them, of this frame

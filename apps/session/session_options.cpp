@@ -114,6 +114,11 @@ presentation::Presentation shownIn(const SessionOptions& options) {
   return told ? practice : presentation::withoutForces(practice);
 }
 
+bool mayHear(const SessionOptions& o) {
+  const bool seen = o.display == scene::Display::window || o.headset;
+  return o.sound && !o.fast && !o.no_views && seen;
+}
+
 std::string sessionText(nlohmann::json session, const SessionOptions& options) {
   session["presentation"] = presentation::jsonOf(shownIn(options));
   if (options.who == OperatorKind::custom)

@@ -101,6 +101,7 @@ struct SessionOptions {
   /// Somebody else at the station, in virtual time: asked a hundred times a second.
   std::function<void(std::int64_t now_ns, trial::Channels&, runtime::StopSwitch&)> meanwhile = {};
   bool headset = false;                   ///< beside the desktop's view
+  bool sound = true;                      ///< where somebody is there to hear it: `mayHear`
   std::string camera, intrinsics, board;  ///< recorded pictures instead of the station's camera
   std::string expert_path;                ///< overrides the task's
   training::Role role = training::Role::scored;  ///< of the trials
@@ -145,6 +146,9 @@ std::filesystem::path operatorFile(const SessionOptions& options, const std::str
 /// What may be seen in it. As named; else in an assessment `assessed`; else practice, where no
 /// force is felt without what replaces feeling.
 presentation::Presentation shownIn(const SessionOptions& options);
+
+/// Whether a sound may be heard in it: in real time, by whoever sees it. Asked once it is settled.
+bool mayHear(const SessionOptions& options);
 
 /// What a session says of itself, with the study that it is part of, if any.
 std::string sessionText(nlohmann::json session, const SessionOptions& options);

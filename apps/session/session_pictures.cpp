@@ -122,8 +122,9 @@ std::optional<ar::Frame> SessionPictures::take(std::int64_t now_ns, std::uint64_
     }
     if (!frame) return frame;
     frame->number = number;
-    frame->t_exposure_ns =
-        source_ == Source::webcam ? runtime::exposureOf(*frame, station_.camera_latency_s, clock) : now_ns;
+    frame->t_exposure_ns = source_ == Source::webcam
+                               ? runtime::exposureOf(*frame, station_.camera_latency_s, clock)
+                               : now_ns;
     return frame;
   } catch (...) {
     if (source_ == Source::webcam) pictures_.reset();  // to be opened anew

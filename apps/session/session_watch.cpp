@@ -35,6 +35,7 @@ std::string partInWords(const std::string& activity) {
       {"progress", "the terminal"},
       {"console", "the line to the console"},
       {"force sensor", "the force sensor"},
+      {"sound", "the sound"},
       {"force guard", "the line to the force guard"}};
   const auto found = kWords.find(activity);
   return found == kWords.end() ? activity : found->second;

@@ -98,6 +98,7 @@ std::vector<KeyHelp> keysOf(const KeysInUse& use) {
   append(all, saidIn(use.engine));
   if (use.free_skin) all.push_back({"T", "the skin: clear, solid, gone"});
   if (use.one_fixed_view) all.push_back({"V", "the next fixed view"});
+  if (use.sound) all.push_back({"S", "the sound: off, and on"});
   append(all, ofEverySession());
   return all;
 }
@@ -117,7 +118,8 @@ std::string movedWords(HeldBy held, bool left_handed) {
 
 std::string keysText(Engine engine) {
   std::string text;
-  for (const KeyHelp& one : keysOf({.engine = engine, .free_skin = true, .one_fixed_view = true}))
+  for (const KeyHelp& one :
+       keysOf({.engine = engine, .free_skin = true, .one_fixed_view = true, .sound = true}))
     text += (text.empty() ? "Keys: " : "; ") + one.key + ": " + one.words;
   return text + "; ? or F1: shows these in the window";
 }

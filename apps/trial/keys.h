@@ -12,7 +12,7 @@
 namespace palpa::trial {
 
 /// Keys that every session understands, and what a trainee says by a key; whatever else a key does
-/// (skin, view, needle) is done where it belongs.
+/// (skin, view, needle, sound) is done where it belongs.
 void handleKeys(const scene::ViewInput& input, Channels& channels, runtime::StopSwitch& stop);
 
 /// What moves the tool, beside these keys.
@@ -25,6 +25,7 @@ struct KeysInUse {
   bool left_handed = false;
   bool free_skin = false;       ///< its look may be changed
   bool one_fixed_view = false;  ///< of several
+  bool sound = false;           ///< it may be heard
 };
 /// All keys of a session with what they do, as the window shows them: what the trainee needs first.
 std::vector<scene::KeyHelp> keysOf(const KeysInUse& use);

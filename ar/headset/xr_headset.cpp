@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/left_behind.h"
 #include "ar/headset/xr_frames.h"
 #include "ar/headset/xr_thread.h"
 

@@ -29,9 +29,4 @@ class XrThread {
   std::thread thread_;
 };
 
-/// Keeps `all` that a hanging step uses until the program ends, and the code that the step runs in:
-/// from now on no library is unloaded, and the program ends without asking them, since one of them
-/// may wait for its hanging thread.
-void leaveBehind(std::shared_ptr<void> all);
-
 }  // namespace palpa::ar

@@ -112,7 +112,7 @@ std::string libraryOf(const std::string& header) {
       {"zlib", "zlib"},          {"httplib", "httplib"},
       {"igtl", "OpenIGTLink"},   {"boost/", "Boost"},
       {"glm/", "GLM"},           {"embree3/", "Embree"},
-      {"openssl/", "OpenSSL"}};
+      {"openssl/", "OpenSSL"},   {"AL/", "OpenAL"}};
   for (const auto& [prefix, library] : kPrefixes)
     if (begins(header, prefix)) return library;
   return "";

@@ -22,7 +22,8 @@ class Records {
  public:
   explicit Records(const std::string& name) : url_((freshPlace(name) / "r.sqlite").string()) {}
 
-  void hold(const std::string& stored_as, const std::string& task_id, const json& more = json::object()) {
+  void hold(const std::string& stored_as, const std::string& task_id,
+            const json& more = json::object()) {
     record::RecordStore store(url_);
     for (int i = 0; i < 6; ++i) {
       const std::string who = "T" + std::to_string(i);

@@ -8,8 +8,8 @@
 namespace palpa::assess {
 namespace {
 
-constexpr double kVenous = 0.25, kArterial = 0.4, kPulse = 60.0 / 72;  // strokes/s; s
-constexpr double kGone = 0.5;                                          // s
+constexpr double kVenous = 0.25, kArterial = 0.4, kPulse = 60.0 / kHeart_per_min;  // strokes/s; s
+constexpr double kGone = 0.5;                                                      // s
 
 }  // namespace
 

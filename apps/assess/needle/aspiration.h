@@ -11,6 +11,9 @@ namespace palpa::assess {
 /// drawn than the rules ask.
 Tissue aspiratedFrom(const TrialSample& s, const ScoringRules& rules);
 
+/// Beats a minute of the patient's heart [chosen], an adult's at rest.
+inline constexpr double kHeart_per_min = 72;
+
 /// The syringe while it fills, as it is seen. Of its stroke, a second [chosen]:
 ///   vein    0.25, steadily
 ///   artery  0.4 (1 - cos(2 pi t / 0.83 s)): in pulses, 72 a minute

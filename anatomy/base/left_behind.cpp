@@ -1,3 +1,5 @@
+#include "anatomy/base/left_behind.h"
+
 #include <dlfcn.h>
 #include <link.h>
 
@@ -7,9 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "ar/headset/xr_thread.h"
-
-namespace palpa::ar {
+namespace palpa {
 namespace {
 
 void keepLibrariesLoaded() {
@@ -43,4 +43,4 @@ void leaveBehind(std::shared_ptr<void> all) {
   [[maybe_unused]] static const int once = on_exit(&endAtOnce, nullptr);
 }
 
-}  // namespace palpa::ar
+}  // namespace palpa
