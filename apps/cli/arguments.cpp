@@ -1,16 +1,12 @@
 #include "apps/cli/arguments.h"
 
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 
 #include "anatomy/base/error.h"
 #include "apps/cli/values.h"
-#include "apps/os/file_access.h"
 #include "apps/presentation/presentation.h"
 #include "apps/record/store/record_store.h"
-#include "apps/record/store/sql_connection.h"
 #include "apps/station/assets.h"
 
 namespace palpa::cli {
@@ -127,6 +123,13 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
   command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can; repeats exactly");
   command.add_flag("--record-video", o.record_video,
                    "Keep the camera's pictures and their poses: camera.mjpeg and a table");
+  command
+      .add_option("--film-room", o.film_room,
+                  "Film the room with this camera (/dev/video2; or a film, to try it) for the "
+                  "debrief: room.mjpeg; needs --film-agreed")
+      ->type_name("CAMERA");
+  command.add_flag("--film-agreed", o.film_agreed,
+                   "Who trains was asked and has agreed to be filmed in this session");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
   choice(command, "--tracking", o.tracking, kTrackings,
          "The virtual bench's board is tracked in its camera's pictures (images, the default), or "
@@ -298,56 +301,6 @@ void addSessionArguments(CLI::App& command, session::SessionOptions& o) {
       "What the haptic loop knows of the shape: snapshots at 60 Hz, or the full mesh in every tick "
       "(slow; with --fast)");
   addRecordedPictures(command, o);
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-/// Where it cannot be made, opening says what is wrong.
-void makeFolderOf(const std::string& url) {
-  if (!record::isServer(url)) os::makeFolders(fs::absolute(url).parent_path());
-}
-
-}  // namespace
-
-std::string usualRecords() {
-  if (const char* url = std::getenv("PALPA_RECORDS"); url && *url) return url;
-  return (os::dataFolder("Set HOME, or say where the records are: --records FILE") /
-          "palpa/records.sqlite")
-      .string();
-}
-
-std::filesystem::path usualConsoleHome() {
-  return os::dataFolder("Set HOME, or say where sessions are kept: --home DIR") / "palpa/console";
-}
-
-std::string usualRecordsMade() {
-  std::string url = usualRecords();
-  makeFolderOf(url);
-  return url;
-}
-
-void requireRecords(const std::string& url) {
-  record::requireAddress(url);
-  if (record::isServer(url)) return;
-  std::error_code none;
-  const bool there = fs::exists(url, none);
-  if (there && (fs::is_directory(url, none) || fs::file_size(url, none) > 0)) return;
-  throw UsageError(there ? "is empty" : "is not there", "records file " + url,
-                   there ? "Restore it from a backup: palpa records restore"
-                         : "Give the right one: --records; the first trainee makes one: palpa "
-                           "records trainee add");
-}
-
-void addRecordsArgument(CLI::App& command, std::string& url) {
-  command
-      .add_option("--records", url,
-                  "Records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, "
-                  "else ~/.local/share/palpa/records.sqlite)")
-      ->type_name("FILE|URL");
-  command.parse_complete_callback(
-      [&url] { url.empty() ? void(url = usualRecordsMade()) : record::requireAddress(url); });
 }
 
 }  // namespace palpa::cli

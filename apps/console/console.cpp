@@ -124,7 +124,9 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   WebServer server(guard, refusals);
   const int port = portOf(server, s);
   guard.answerTo(hostsOf(s, port));
-  Console console(s.place, guard, s.tone);
+  ConsolePlace place = s.place;
+  place.reached = !isLoopback(s.address) || !s.names.empty();
+  Console console(place, guard, s.tone);
   addPages(server, console);
   addStationRoutes(server, console);
   addPeopleRoutes(server, console);

@@ -49,7 +49,7 @@ bool hasOwn(Console& c, const std::string& trainee, const std::string& id) {
 json newPin(Console& c, const std::string& trainee) {
   if (!record::RecordStore(c.place.records).trainee(trainee))
     throw UsageError("is not in the records", "trainee " + trainee, "Choose one from the list");
-  if (!c.guard.asksForToken())
+  if (!c.openToOthers())
     throw UsageError("can be reached from this computer only", "this console",
                      "Start it with --listen and --token-file");
   return {{"pin", c.guard.own().pinFor(trainee)}, {"minutes", OwnDoor::kPinLasts.count()}};

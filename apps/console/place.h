@@ -15,6 +15,7 @@ struct ConsolePlace {
   std::string sockets;          ///< folder of local sockets
   std::string version;
   std::string room_camera;  ///< films those who agree; empty: there is none
+  bool reached = false;     ///< from other computers: by its address, or by another name
   bool display = false;     ///< a window can be opened: a person may hold the tool
 
   std::filesystem::path settings() const { return home / "settings.json"; }

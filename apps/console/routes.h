@@ -22,6 +22,8 @@ struct Console {
         tone(std::move(tone_of)),
         sessions(place),
         jobs(place) {}
+  /// Others come to it, by a token: a trainee's own device, too.
+  bool openToOthers() const { return place.reached && guard.asksForToken(); }
   const ConsolePlace place;
   Guard& guard;
   const live::ToneOf tone;

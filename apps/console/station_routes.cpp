@@ -61,7 +61,7 @@ json me(const Console& c, bool entered) {
   if (!entered) return all;
   all["display"] = c.place.display;
   all["room_camera"] = !c.place.room_camera.empty();
-  all["token"] = c.guard.asksForToken();  // others can come to it, too
+  all["open_to_others"] = c.openToOthers();
   all["stations"] = json::array();
   for (const StationKind kind : kStationKinds) all["stations"].push_back(described(c, kind));
   return all;

@@ -298,6 +298,7 @@ record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head
                   {"assessed", options.assess},
                   {"task", parseJson(task_json).value("id", "")},
                   {"sound", mayHear(options)},
+                  {"filmed", !options.film_room.empty()},
                   {"report", jsonOf(head)}});
   if (head.page) of_task["report"]["others"] = othersLike(options, head.simulated, task_json);
   info.task_json = task_json;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/uuid.h"
 #include "apps/evidence/told_events.h"
@@ -183,6 +184,7 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
   stage.X_WA = world_.X_WA;
   stage.X_WD = world_.station.X_WD;
   stage.mark = markFor(options_.who, world_.station);
+  if (!options_.film_room.empty()) stage.mark += stage.mark.empty() ? "FILMED" : ", FILMED";
   stage.shown = shownIn(options_);
   stage.folder = folder_;
   stage.every_source_picture = pictures_.photographs();
@@ -293,6 +295,8 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   if (options_.meanwhile && mode_ == runtime::TimeMode::virtual_time)
     executive_->add(meanwhile.emplace(options_, channels_, bus_.stop), {10, false, false});
   if (sound_) executive_->add(*sound_, {11, false, false});
+  const std::unique_ptr<runtime::RoomFilm> room = roomFilm(options_, folder_, executive_->clock());
+  if (room) executive_->add(*room, {12, false, false});
   igtl.addTo(*executive_);
   executive_->whenStuck(
       [&](const runtime::Executive::Stuck& stuck, const std::string& failure) {
@@ -320,6 +324,9 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   if (place_) rememberWindow(*place_);
   SessionRun run = leftBy(task, scene);
   if (sound_) run.devices.push_back({"Sound as it was", sound_->facts(), ""});
+  if (room)
+    run.devices.push_back(
+        {"Film of the room", counted(room->pictures(), "picture"), room->trouble()});
   for (report::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
   run.dropped = recorder.dropped() + task.lostTicks();
   return run;

@@ -9,6 +9,7 @@
 #include "anatomy/base/json_file.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
+#include "ar/cameras/recorded_pictures.h"
 #include "scene/window/x11_window.h"
 
 namespace palpa::session {
@@ -60,6 +61,16 @@ void settleAssessment(SessionOptions& o) {
     std::puts(
         "Assessment: every aid is off: the view stays fixed, the skin is solid, the screen shows "
         "neither anatomy nor tissue nor force, no demonstration");
+}
+
+/// Nobody is filmed unasked.
+void checkFilm(const SessionOptions& o) {
+  if (o.film_room.empty()) return;
+  if (!o.film_agreed)
+    throw UsageError("films people, and nobody has said that they agree", "--film-room",
+                     "Ask who trains; who agrees is filmed with --film-agreed beside it");
+  if (o.fast && !ar::isVideoFile(o.film_room))
+    throw UsageError("needs real time", "--film-room with a camera", "Leave out --fast");
 }
 
 /// The model takes the place of pictures that nobody sees.
@@ -175,6 +186,7 @@ void settle(SessionOptions& o) {
   if (o.assess) settleAssessment(o);
   checkShown(o);
   checkTracking(o);
+  checkFilm(o);
   if (o.exact_geometry && !o.fast)
     throw UsageError("needs virtual time", "--geometry exact",
                      "Add --fast: the full mesh takes longer than a tick");

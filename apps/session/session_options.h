@@ -85,6 +85,8 @@ struct SessionOptions {
   bool fast = false;
   bool no_views = false;
   Tracking tracking = Tracking::images;
+  std::string film_room;                                   ///< by this camera, or film; empty: not
+  bool film_agreed = false;                                ///< by who trains, for this session
   bool record_video = false;                               ///< keep the camera's pictures
   std::optional<presentation::Presentation> presentation;  ///< empty: by role and force feedback
   bool hide_forces = false;      ///< a study's: those of other conditions do not feel them

@@ -158,4 +158,20 @@ void SessionPictures::note(const runtime::CameraView& view) {
   registration_.push_back(row);
 }
 
+std::unique_ptr<runtime::RoomFilm> roomFilm(const SessionOptions& options,
+                                            const std::filesystem::path& folder,
+                                            const runtime::Clock& clock) {
+  const std::string& from = options.film_room;
+  if (from.empty()) return nullptr;
+  const bool film = ar::isVideoFile(from);
+  const auto open = [from, film]() -> std::unique_ptr<ar::Camera> {
+    if (film) return std::make_unique<ar::VideoFile>(from);
+    ar::WebcamSettings settings;
+    settings.device = from;
+    settings.adjusts = true;
+    return std::make_unique<ar::Webcam>(settings);
+  };
+  return std::make_unique<runtime::RoomFilm>(open, !film, folder, clock);
+}
+
 }  // namespace palpa::session

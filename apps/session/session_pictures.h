@@ -6,6 +6,7 @@
 
 #include "apps/runtime/camera_activity.h"
 #include "apps/runtime/clock.h"
+#include "apps/runtime/room_film.h"
 #include "apps/session/session_options.h"
 #include "apps/twin/virtual_bench.h"
 #include "ar/cameras/webcam.h"
@@ -64,5 +65,11 @@ class SessionPictures {
   std::unique_ptr<ar::Board> board_;
   std::vector<RegistrationRow> registration_;
 };
+
+/// The film of the room, by the camera that is named or out of another film, into this folder;
+/// null: nobody wanted one. The clock outlives it. Throws Error where it cannot be written.
+std::unique_ptr<runtime::RoomFilm> roomFilm(const SessionOptions& options,
+                                            const std::filesystem::path& folder,
+                                            const runtime::Clock& clock);
 
 }  // namespace palpa::session

@@ -25,6 +25,7 @@ std::string partInWords(const std::string& activity) {
       {"scene", "the picture"},
       {"camera", "the camera"},
       {"recorder", "the evidence"},
+      {"room film", "the camera in the room"},
       {"falcon", "the haptic device"},
       {"haptic", "the haptic loop"},
       {"igtl", "OpenIGTLink"},

@@ -67,7 +67,7 @@ export async function show({ root, life, params: [id], open, me }) {
       ]),
     ),
   );
-  if (me.token) root.append(ownDevice(id));
+  if (me.open_to_others) root.append(ownDevice(id));
   const own = sessions.filter((s) => s.trainee === id);
   root.append(
     h("h2", {}, "Sessions"),

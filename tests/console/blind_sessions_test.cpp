@@ -79,7 +79,8 @@ std::map<std::string, std::string> askedOf(Served& console) {
          {"", "/file/report.html", "/file/trials.csv", "/file/view-01-01-start.png",
           "/file/exam-1-R1.html", "/file/certificate-1-R1.pdf", "/file/log.txt", "/live", "/view",
           "/ratings/1/R1", "/ratings/1/R1/trial", "/ratings/1/R1/certificate", "/picture",
-          "/trials/1/replay", "/trials/1/frame/0", "/trials/1/track"})
+          "/trials/1/replay", "/trials/1/frame/0", "/trials/1/track", "/trials/1/room",
+          "/room/0/2"})
       paths.push_back(one + what);
   }
   std::map<std::string, std::string> answers;

@@ -123,7 +123,7 @@ TEST_F(OwnResults, AreNotShownOfWhoIsInTheRecordsNoMore) {
 TEST_F(OwnResults, NeedAConsoleThatOthersCanComeTo) {
   Served console(home(), sockets_.path());
   EXPECT_EQ(Asking(console).post("/api/trainees/T017/pin", json::object())->status, 422);
-  EXPECT_FALSE(console.get("/api/me")["token"].get<bool>());
+  EXPECT_FALSE(console.get("/api/me")["open_to_others"].get<bool>());
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ class Served {
   Served(const std::filesystem::path& home, const std::string& sockets,
          const std::string& token = "") {
     settings_.token = token;
+    if (!token.empty()) settings_.names = {"station.test"};  // others come to it by that
     settings_.place.home = home;
     settings_.place.pages = std::filesystem::path(PALPA_SOURCE_DIR) / "assets/console";
     settings_.place.records = (home.parent_path() / "records.sqlite").string();

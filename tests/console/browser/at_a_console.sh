@@ -26,7 +26,7 @@ if [ "$part" = week ]; then  # with a study that ends within the week
   head -c 24 /dev/urandom | base64 >"$work/token" && chmod 600 "$work/token"
   PALPA_CONSOLE_TOKEN=$(cat "$work/token")
   export PALPA_CONSOLE_TOKEN
-  more=(--token-file "$work/token")
+  more=(--token-file "$work/token" --name station.test)
 fi
 
 # The browser's driver and axe: each one file of the registry, without further
