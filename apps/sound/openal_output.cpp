@@ -81,7 +81,10 @@ class OpenAlOutput final : public Output {
   OpenAlOutput& operator=(const OpenAlOutput&) = delete;
 
   std::string name() const override {
-    const char* const name = alcGetString(device_.get(), ALC_DEVICE_SPECIFIER);
+    const bool by_its_own =
+        alcIsExtensionPresent(device_.get(), "ALC_ENUMERATE_ALL_EXT") == ALC_TRUE;
+    const char* const name = alcGetString(
+        device_.get(), by_its_own ? ALC_ALL_DEVICES_SPECIFIER : ALC_DEVICE_SPECIFIER);
     return name ? name : "a sound device";
   }
 
@@ -138,13 +141,13 @@ class OpenAlOutput final : public Output {
 std::unique_ptr<Output> openUsualOutput() { return std::make_unique<OpenAlOutput>(); }
 
 /// ALSA's own words cannot be turned off by a setting: where this computer has no sound card at
-/// all, it is not asked.
+/// all, it is not asked, nor is sndio, which asks it.
 void keepSoundLibrariesQuiet() {
   constexpr int kKeepWhatIsSet = 0;
   setenv("ALSOFT_LOGLEVEL", "0", kKeepWhatIsSet);
   std::error_code none;
   if (!std::filesystem::exists("/dev/snd", none))
-    setenv("ALSOFT_DRIVERS", "-alsa,", kKeepWhatIsSet);
+    setenv("ALSOFT_DRIVERS", "-alsa,-sndio,", kKeepWhatIsSet);
 }
 
 }  // namespace palpa::sound
