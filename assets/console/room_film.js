@@ -30,8 +30,9 @@ export async function roomFilm(session, trial) {
   const node = h(
     "section",
     { class: "card room", "aria-label": "The room" },
+    h("figure", {}, img),
     h("h2", {}, "The room"),
-    h("figure", {}, img, h("figcaption", {}, "Filmed with the trainee's agreement")),
+    h("p", { class: "muted" }, "Filmed with the trainee's agreement. It is in no export."),
     said,
     button,
   );

@@ -35,7 +35,9 @@ void writeEvidence(const fs::path& folder) {
   writer.close();
 }
 
-constexpr char kPictures[][8] = {"\xff\xd8one", "\xff\xd8two.", "\xff\xd8three", "\xff\xd8" "four"};
+constexpr char kPictures[][8] = {"\xff\xd8one", "\xff\xd8two.", "\xff\xd8three",
+                                 "\xff\xd8"
+                                 "four"};
 
 void writeFilm(const fs::path& folder) {
   std::ofstream film(folder / "room.mjpeg", std::ios::binary);
