@@ -83,8 +83,8 @@ class OpenAlOutput final : public Output {
   std::string name() const override {
     const bool by_its_own =
         alcIsExtensionPresent(device_.get(), "ALC_ENUMERATE_ALL_EXT") == ALC_TRUE;
-    const char* const name = alcGetString(
-        device_.get(), by_its_own ? ALC_ALL_DEVICES_SPECIFIER : ALC_DEVICE_SPECIFIER);
+    const char* const name =
+        alcGetString(device_.get(), by_its_own ? ALC_ALL_DEVICES_SPECIFIER : ALC_DEVICE_SPECIFIER);
     return name ? name : "a sound device";
   }
 

@@ -29,6 +29,13 @@ if [ "$part" = week ]; then  # with a study that ends within the week
   more=(--token-file "$work/token" --name station.test)
 fi
 
+if [ "$part" = week ] && [ "${PALPA_FULL:-0}" = 1 ]; then  # a room that can be filmed: by a film
+  "$palpa" subclavian --operator expert --fast --no-views --record-video --quiet \
+    --out "$work/filmed" >/dev/null
+  more+=(--room-camera "$work/filmed/camera.mjpeg")
+  export PALPA_ROOM_CAMERA=1
+fi
+
 # The browser's driver and axe: each one file of the registry, without further
 # libraries, known by its sum.
 mkdir -p "$work/node_modules"

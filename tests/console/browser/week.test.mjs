@@ -50,12 +50,13 @@ async function open(name) {
 }
 
 /** Chooses on the page of a new session, and begins it. */
-async function beginSession({ task, trainee, assessed, trials = 1 }) {
+async function beginSession({ task, trainee, assessed, film, trials = 1 }) {
   await open("Session");
   await hand.check(page.getByRole("radio", { name: task, exact: true }));
   if (trainee) await hand.choose(page.getByLabel("Trainee"), trainee);
   await hand.check(page.getByLabel("simulated expert"));
   if (assessed) await hand.check(page.getByLabel("assessed", { exact: true }));
+  if (film) await hand.check(page.getByLabel("Film the room, for the debrief"));
   if (trials > 1) {
     await hand.press(page.getByText("More: number of trials"));
     await hand.write(page.getByLabel("Trials", { exact: true }), String(trials));
@@ -257,6 +258,29 @@ test("a debrief leads back to where one came from", { skip, timeout: kWhole }, a
   await hand.press(named("link", "Back to the result"));
   await page.locator(".verdict .notice").waitFor();
 });
+
+test(
+  "the room is filmed of who agrees, seen in the debrief, and the film deleted",
+  {
+    skip: skip || (process.env.PALPA_ROOM_CAMERA ? false : "of a week in full: a room's camera"),
+    timeout: kWhole,
+  },
+  async () => {
+    await beginSession({ task: (await tasks())[0], trainee: bert, film: true });
+    await page.getByText("the room is filmed").waitFor();
+    await readResult();
+    await hand.press(named("link", /^Replay of trial/).first());
+    await page.locator("#play").waitFor();
+    const room = page.getByRole("region", { name: "The room" });
+    await room.waitFor();
+    await e.look("filmed");
+    await hand.press(room.getByRole("button", { name: "Delete the film" }));
+    await hand.press(page.getByRole("dialog").getByRole("button", { name: "Delete the film" }));
+    await page.getByText("The film of the room is deleted.").waitFor();
+    await hand.press(named("link", "Back to the result"));
+    await page.locator(".verdict .notice").waitFor();
+  },
+);
 
 /** The block of the week's study, as an educator sees it: nothing that tells what was drawn. */
 async function heldBlind(study) {
