@@ -1,4 +1,3 @@
-#include <array>
 #include <charconv>
 #include <fstream>
 #include <string>
@@ -66,6 +65,9 @@ json picturesOf(const fs::path& folder, int number) {
   return all;
 }
 
+/// Of twelve digits at most, as the paths here have them.
+std::uint64_t numberIn(const std::string& digits) { return std::stoull(digits); }
+
 /// One picture out of the film; nothing else in the folder can be asked for so.
 void sendPicture(httplib::Response& response, const fs::path& film, std::uint64_t offset,
                  std::uint64_t bytes) {
@@ -100,8 +102,8 @@ void addRoomRoutes(WebServer& server, Console& c) {
              });
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/room/([0-9]{1,12})/([0-9]{1,7}))",
              [&c](const httplib::Request& q, httplib::Response& r) {
-               sendPicture(r, c.sessions.shown(q.matches[1]) / kFilm, wholeNumber(q.matches[2], 0),
-                           wholeNumber(q.matches[3], 0));
+               sendPicture(r, c.sessions.shown(q.matches[1]) / kFilm, numberIn(q.matches[2]),
+                           numberIn(q.matches[3]));
              });
   server.Post(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/room/delete)",
               [&c](const httplib::Request& q, httplib::Response& r) {

@@ -266,7 +266,7 @@ export async function show({ root, life, params: [id], open }) {
     end: showEnd,
     earlier: () => events.earlier(),
     event: (heard) => {
-      const m = { ...heard, t_s: heard.about_s };
+      const m = { ...heard, t_s: heard.about_s ?? heard.t_s };
       figure.event(m);
       if (events.add(m, m.tone || "neutral")) curves.moment(m, m.tone || "neutral");
     },

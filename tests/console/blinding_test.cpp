@@ -109,10 +109,10 @@ TEST(Blinded, HowItStandsStopsAndNotesAreHeard) {
                            {"t_s", 5},
                            {"trial", 1},
                            {"text", "note: a phone rang"},
-                           {"value", 4.2},
+                           {"about_s", 4.2},
                            {"tone", "note"}});
   EXPECT_EQ(note["text"], "note: a phone rang");
-  EXPECT_EQ(note["value"], 4.2);
+  EXPECT_EQ(note["about_s"], 4.2);
   EXPECT_EQ(heard({{"kind", "event"},
                    {"event", "emergency_stop"},
                    {"t_s", 5},

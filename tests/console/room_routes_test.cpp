@@ -100,6 +100,15 @@ TEST_F(RoomRoutes, PicturesHaveTheTrialsTimeWithoutItsPauses) {
   }
 }
 
+TEST_F(RoomRoutes, AFilmMayBeLong) {
+  std::ofstream(folder() / "room.mjpeg", std::ios::binary)
+      << std::string(12'345'678, '.') << "\xff\xd8late";
+  Served console(home(), sockets_.path());
+  const auto picture = console.client().Get("/api/sessions/A1/room/12345678/6");
+  ASSERT_EQ(picture->status, 200);
+  EXPECT_EQ(picture->body, "\xff\xd8late");
+}
+
 TEST_F(RoomRoutes, NothingButAPictureCanBeTakenOut) {
   Served console(home(), sockets_.path());
   httplib::Client client = console.client();
