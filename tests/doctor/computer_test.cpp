@@ -89,6 +89,14 @@ TEST(DoctorsComputer, DrawingAndHeadset) {
   expectSays(runtime(R"({"runtime": {"library_path": "./libxr.so"}})"), State::well, "libxr.so");
 }
 
+TEST(DoctorsComputer, SoundIsTheDevicesOrIsMissedByNobody) {
+  using Speaker = sound::Loudspeaker::State;
+  expectSays(judgeSound({Speaker::playing, "Built-in Audio"}), State::well, "on Built-in Audio");
+  expectSays(judgeSound({Speaker::silent, "No sound device: the system has none"}), State::absent,
+             "No sound device: the system has none. Sessions go on in silence");
+  expectSays(judgeSound({Speaker::opening, ""}), State::note, "does not answer");
+}
+
 /// The variable as it was again at the end.
 class Environment {
  public:
