@@ -23,7 +23,7 @@ struct Pulse {
 /// device takes; how loud that is, the computer's own volume says. All cues at once stay below 0.
 ///
 /// warning, alarm: after the bursts of medium and high priority of IEC 60601-1-8:2006 (tables 3 and
-/// 4; the same since). There
+/// 4). There
 ///     pulses in a burst       3 (medium), 10 (high)
 ///     length of a pulse       125 to 250 ms (medium), 75 to 200 ms (high)
 ///     rise of a pulse         10 to 40 % of its length
