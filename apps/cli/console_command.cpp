@@ -59,6 +59,9 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.place.sockets = os::socketFolder();
   s.place.version = PALPA_VERSION;
   s.place.display = std::getenv("DISPLAY") != nullptr;
+  if (!o.room_camera.empty() && !fs::exists(o.room_camera))
+    throw UsageError("is not there", "--room-camera " + o.room_camera,
+                     "Plug it in, or leave it out");
   s.place.room_camera = o.room_camera;
   s.address = o.listen;
   s.port = o.port;

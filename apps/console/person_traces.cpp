@@ -77,7 +77,8 @@ std::vector<fs::path> sessionsOf(const fs::path& home, const std::string& traine
 void removeSessionTraces(const fs::path& folder, PersonTraces* traces) {
   for (const fs::path& entry : entriesOf(folder)) {
     const std::string name = entry.filename().string();
-    if (name == "console.json" || name == "log.txt" || name.starts_with("replay-"))
+    if (name == "console.json" || name == "log.txt" || name.starts_with("replay-") ||
+        name.starts_with("room.mjpeg"))
       removeWhole(entry, traces);
   }
   std::error_code none;

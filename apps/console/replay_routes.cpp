@@ -53,12 +53,17 @@ json phasesIn(const std::vector<runtime::Event>& events, const record::RecordedT
   return all;
 }
 
+/// A note belongs to the trial that it is about, whenever it was sent.
+bool isOf(const record::RecordedTrial& trial, const runtime::Event& event) {
+  if (!event.is(EventKind::note)) return event.trial == trial.header.trial;
+  return trial.header.t_ns <= event.about_ns() && !trial.isOver(event.about_ns());
+}
+
 json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial,
               const training::TrialTimes& times, const live::ToneOf& tone) {
   json all = json::array();
   for (const runtime::Event& event : events)
-    if (event.trial == trial.header.trial && !event.is(EventKind::trial_case) &&
-        !event.is(EventKind::picture))
+    if (isOf(trial, event) && !event.is(EventKind::trial_case) && !event.is(EventKind::picture))
       all.push_back({{"t_s", rounded(times.at(event.about_ns()))},
                      {"event", event.kind},
                      {"text", event.text},

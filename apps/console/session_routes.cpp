@@ -91,6 +91,9 @@ std::vector<std::string> sessionCommand(const Console& c, const TaskChoice& task
   if (wish.film && c.place.room_camera.empty())
     throw UsageError("is not known here", "a camera in the room",
                      "Begin the console with --room-camera");
+  if (wish.film && wish.trainee.empty() && wish.performer == "person")
+    throw UsageError("would film somebody whose records nobody could delete", "no trainee",
+                     "Choose the trainee, who has to agree");
   if (wish.film) a.insert(a.end(), {"--film-room", c.place.room_camera, "--film-agreed"});
   addStation(c.place, kind, &a);
   return a;

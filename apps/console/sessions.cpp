@@ -244,7 +244,7 @@ json Sessions::described(const std::string& id, const fs::path& folder) {
            {"started_utc", textOf(facts, "started_utc")},
            {"state", state},
            {"message", messageOf(state, folder)}};
-  for (const char* field : {"assessed", "simulated", "trials", "study", "blind"})
+  for (const char* field : {"assessed", "filmed", "simulated", "trials", "study", "blind"})
     one[field] = facts.value(field, json());
   return one;
 }
@@ -297,6 +297,8 @@ json Sessions::one(const std::string& id) {
   const fs::path results = resultsIn(here);
   const bool blind = one["blind"] == true;
   one["files"] = blind ? json::array() : filesIn(results);
+  std::error_code none;
+  one["film"] = !blind && fs::exists(results / "room.mjpeg", none);
   one["results"] = json::array();
   if (one["state"] == "running" || one["state"] == "starting")
     return one;  // its evidence is being written

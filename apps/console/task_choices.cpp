@@ -7,6 +7,7 @@
 #include "apps/console/stations.h"
 #include "apps/station/assets.h"
 #include "apps/station/material_files.h"
+#include "apps/station/task_sections.h"
 
 namespace palpa::console {
 namespace {
@@ -59,8 +60,8 @@ std::vector<TaskChoice> taskChoices() {
     const std::optional<Engine> engine = training::engineNamed(file.text("engine"));
     if (!engine) continue;
     const bool block = *engine == Engine::needle && file.has("phantom");
-    all.push_back({file.text("id"), file.text("title"), file.has("brief") ? file.text("brief") : "",
-                   *engine, entry.path(), file.has("phantom/shape"), block, file.has("real_lump")});
+    all.push_back({file.text("id"), file.text("title"), station::briefOf(file), *engine,
+                   entry.path(), file.has("phantom/shape"), block, file.has("real_lump")});
   }
   const auto first = [](const TaskChoice& task) {
     return std::pair(task.id != "paracentesis", task.id);

@@ -194,6 +194,18 @@ EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const st
   return done;
 }
 
+std::string conditionOf(const PracticeCondition& of) {
+  std::string condition = of.mode;
+  const auto also = [&](const std::string& words) {
+    condition += (condition.empty() ? "" : ", ") + words;
+  };
+  if (of.rules != assess::kNewestRules)
+    also(of.rules == assess::kPublishedRules ? "scored as published" : "rules " + of.rules);
+  if (of.cues_on) also("cues on");
+  if (of.guided) also("guided");
+  return condition;
+}
+
 namespace {
 
 /// Trials as they come, those of a session after one another: what its description says and which
@@ -240,24 +252,15 @@ void Practice::readNames(const std::vector<record::Metric>& metrics) {
   engine_ = progress::engineOfFigures(names_);
 }
 
-/// What makes a trial unlike others of its task: a search's stiffness, other scoring rules, cues,
-/// guidance.
 std::string Practice::conditionOf(const record::StoredTrial& trial, bool by_path) const {
   const nlohmann::json score =
       trial.score_json.empty() ? nlohmann::json::object() : parseJson(trial.score_json);
-  std::string condition = score.value("MODE", "");
-  const auto also = [&](const std::string& words) {
-    condition += (condition.empty() ? "" : ", ") + words;
-  };
-  const std::string rules = score.value("RULES", "1");
-  if (by_path && rules != assess::kNewestRules)
-    also(rules == assess::kPublishedRules ? "scored as published" : "rules " + rules);
-  if (cues_on_) also("cues on");
-  if (const auto guided = score.find("GUIDED");
-      guided != score.end() &&
-      (guided->is_boolean() ? guided->get<bool>() : guided->get<double>() > 0))
-    also("guided");
-  return condition;
+  const auto guided = score.find("GUIDED");
+  return evidence::conditionOf(
+      {score.value("MODE", ""), by_path ? score.value("RULES", "1") : assess::kNewestRules,
+       cues_on_,
+       guided != score.end() &&
+           (guided->is_boolean() ? guided->get<bool>() : guided->get<double>() > 0)});
 }
 
 progress::PracticeTrial Practice::of(const record::TrialWithSession& stored) {

@@ -41,7 +41,17 @@ struct PracticeChoice {
   std::string trainee, group, task;
   std::string task_id = {};  ///< of the task's file: which of several that count as one task
   std::vector<std::string> left_out = {};  ///< ids of studies
+  bool without_studies = false;            ///< leaves all of them out
+  int simulated = -1;                      ///< 0, 1; -1: any
 };
+/// What makes a trial unlike others of its task.
+struct PracticeCondition {
+  std::string mode;   ///< a search's stiffness, what a comparison asks; empty: the usual
+  std::string rules;  ///< of scoring
+  bool cues_on = false, guided = false;
+};
+/// In the words of PracticeTrial's: "augmented, cues on"; empty: nothing does.
+std::string conditionOf(const PracticeCondition& of);
 /// Trials as the pages of practice take them, by trainee, arrival and number. Throws Error for a
 /// session whose description is damaged.
 std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,

@@ -85,8 +85,8 @@ class SessionReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The time of every trial, by its number, as whoever judges or shows it counts: one pass over the
-/// ticks. Throws Error.
+/// The time of every trial, by its number, as its replay shows it: one pass over the ticks. (A
+/// search is judged from when its handle is let go.) Throws Error.
 std::map<int, training::TrialTimes> trialTimes(const SessionReader& reader);
 
 /// A column of the tick table: its name ends in its unit where it has one; `meaning` says the rest.

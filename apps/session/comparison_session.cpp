@@ -188,6 +188,7 @@ ComparisonRun runComparison(const SessionOptions& options, const ComparisonWorld
        .up_A = X_AO.linear() * Vec3::UnitZ()},
       frame.bus(), channels);
   ComparisonRun run;
+  task.isFor(world.task.brief);
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();
   return run;

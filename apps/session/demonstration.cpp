@@ -72,7 +72,8 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   expert.trials = 1;
   expert.trainee = "simulated-expert";
   expert.live.clear();
-  expert.records.clear();  // what was shown is nobody's trial
+  expert.film_room.clear();  // in virtual time, and of the session's trials alone
+  expert.records.clear();    // what was shown is nobody's trial
   expert.fast = expert.no_views = expert.quiet = true;
   expert.display = scene::Display::offscreen;
   expert.headset = false;

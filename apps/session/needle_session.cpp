@@ -94,6 +94,7 @@ class NeedleSession {
 
   SessionResult run() {
     SessionResult result;
+    task_.isFor(world_.task.brief);
     static_cast<SessionRun&>(result) =
         frame_.run(task_, scene_, sessionInfo(options_, world_), &geometry_);
     result.trials = task_.completed();

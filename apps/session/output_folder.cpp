@@ -84,6 +84,9 @@ void sayWritten(const SessionRun& run, const std::filesystem::path& folder, cons
         "  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, "
         "and where the board was\n",
         static_cast<unsigned long long>(run.video->pictures));
+  std::error_code none;
+  if (std::filesystem::exists(folder / "room.mjpeg", none))
+    std::printf("  room.mjpeg      the room as it was filmed; room.mjpeg.csv: when\n");
   if (!run.pictures.empty())
     std::printf("  view-*.png      %s of the marked moments\n",
                 counted(run.pictures.size(), "picture").c_str());

@@ -255,6 +255,7 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
                                         .map = world.shownMap(options)},
                                        frame.bus(), channels);
   PalpationRun run;
+  task.isFor(world.task.brief);
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();
   return run;

@@ -79,6 +79,7 @@ PulseRun runPulse(const SessionOptions& options, const PulseWorld& world,
       frame.bus(), channels, frame.executive());
   task_pulse::PulseScene scene({frame.stage(), anatomy::X_AP()}, frame.bus(), channels);
   PulseRun run;
+  task.isFor(world.task.brief);
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();
   return run;

@@ -161,6 +161,7 @@ SearchRun runSearch(const SessionOptions& options, const SearchWorld& world,
                                   .magnification = world.magnification()},
                                  frame.bus(), channels);
   SearchRun run;
+  task.isFor(world.task.brief);
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();
   return run;

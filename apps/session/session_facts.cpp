@@ -300,7 +300,8 @@ record::SessionInfo infoOf(const SessionOptions& options, const ReportHead& head
                   {"sound", mayHear(options)},
                   {"filmed", !options.film_room.empty()},
                   {"report", jsonOf(head)}});
-  if (head.page) of_task["report"]["others"] = othersLike(options, head.simulated, task_json);
+  for (const progress::Group& group : options.others)
+    of_task["report"]["others"].push_back(jsonOf(group));
   info.task_json = task_json;
   info.session_json = sessionText(std::move(of_task), options);
   return info;

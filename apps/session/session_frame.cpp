@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "anatomy/base/counted.h"
-#include "anatomy/base/json_text.h"
 #include "anatomy/base/uuid.h"
 #include "apps/evidence/told_events.h"
 #include "apps/live/wire.h"
@@ -280,7 +279,6 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   devices_.addTo(*executive_);
   if (const std::string warning = devices_.warning(); !warning.empty()) task.warn(warning);
   if (window_ && !options_.fast) task.stay();
-  task.isFor(parseJson(info.task_json).value("brief", ""));
   if (window_) task.isMovedBy(trial::movedWords(heldBy(devices_), options_.left_handed));
   executive_->add(*haptic, {1, true, false, options_.cpu});
   if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});
@@ -295,8 +293,15 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   if (options_.meanwhile && mode_ == runtime::TimeMode::virtual_time)
     executive_->add(meanwhile.emplace(options_, channels_, bus_.stop), {10, false, false});
   if (sound_) executive_->add(*sound_, {11, false, false});
-  const std::unique_ptr<runtime::RoomFilm> room = roomFilm(options_, folder_, executive_->clock());
-  if (room) executive_->add(*room, {12, false, false});
+  const std::unique_ptr<runtime::RoomFilm> room =
+      roomFilm(options_, world_.station, folder_, executive_->clock());
+  if (room) {
+    executive_->add(*room, {12, false, false});
+    watch.listenTo([&room] {
+      const std::string words = room->news();
+      return words.empty() ? words : "The room is not filmed: " + words;
+    });
+  }
   igtl.addTo(*executive_);
   executive_->whenStuck(
       [&](const runtime::Executive::Stuck& stuck, const std::string& failure) {

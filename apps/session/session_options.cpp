@@ -69,6 +69,8 @@ void checkFilm(const SessionOptions& o) {
   if (!o.film_agreed)
     throw UsageError("films people, and nobody has said that they agree", "--film-room",
                      "Ask who trains; who agrees is filmed with --film-agreed beside it");
+  if (!std::filesystem::exists(o.film_room))
+    throw UsageError("is not there", "--film-room " + o.film_room, "Plug it in, or leave it out");
   if (o.fast && !ar::isVideoFile(o.film_room))
     throw UsageError("needs real time", "--film-room with a camera", "Leave out --fast");
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "anatomy/patient.h"
+#include "apps/assess/progress/standing.h"
 #include "apps/presentation/presentation.h"
 #include "apps/training/trial_words.h"
 #include "scene/scene_state.h"
@@ -85,9 +86,11 @@ struct SessionOptions {
   bool fast = false;
   bool no_views = false;
   Tracking tracking = Tracking::images;
-  std::string film_room;                                   ///< by this camera, or film; empty: not
-  bool film_agreed = false;                                ///< by who trains, for this session
-  bool record_video = false;                               ///< keep the camera's pictures
+  bool records_reached = true;          ///< when they were asked for the trainee
+  std::vector<progress::Group> others;  ///< shown beside in the report: `meetOthers`
+  std::string film_room;                ///< by this camera, or film; empty: not
+  bool film_agreed = false;             ///< by who trains, for this session
+  bool record_video = false;            ///< keep the camera's pictures
   std::optional<presentation::Presentation> presentation;  ///< empty: by role and force feedback
   bool hide_forces = false;      ///< a study's: those of other conditions do not feel them
   bool navigation = true;        ///< free navigation of the view

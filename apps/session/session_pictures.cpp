@@ -159,11 +159,16 @@ void SessionPictures::note(const runtime::CameraView& view) {
 }
 
 std::unique_ptr<runtime::RoomFilm> roomFilm(const SessionOptions& options,
+                                            const station::Station& station,
                                             const std::filesystem::path& folder,
                                             const runtime::Clock& clock) {
   const std::string& from = options.film_room;
   if (from.empty()) return nullptr;
   const bool film = ar::isVideoFile(from);
+  if (station.camera_setup.driver == station::CameraDriver::webcam &&
+      station.camera_setup.device == from)
+    throw UsageError("is the camera that the station watches", "--film-room " + from,
+                     "Name another camera, or leave it out");
   const auto open = [from, film]() -> std::unique_ptr<ar::Camera> {
     if (film) return std::make_unique<ar::VideoFile>(from);
     ar::WebcamSettings settings;

@@ -67,8 +67,10 @@ class SessionPictures {
 };
 
 /// The film of the room, by the camera that is named or out of another film, into this folder;
-/// null: nobody wanted one. The clock outlives it. Throws Error where it cannot be written.
+/// null: nobody wanted one. The clock outlives it. Throws UsageError for the station's own camera,
+/// Error where it cannot be written.
 std::unique_ptr<runtime::RoomFilm> roomFilm(const SessionOptions& options,
+                                            const station::Station& station,
                                             const std::filesystem::path& folder,
                                             const runtime::Clock& clock);
 

@@ -7,6 +7,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
+#include "apps/assess/needle/assess_trial.h"
 #include "apps/evidence/evidence_records.h"
 #include "apps/evidence/expert_ranges.h"
 #include "apps/training/engine.h"
@@ -19,8 +20,22 @@ constexpr record::Patience kBriefly{2, 300'000'000};  // a person waits
 
 }  // namespace
 
+namespace {
+
+void requireInRecords(SessionOptions& o);
+
+}  // namespace
+
 void checkTrainee(SessionOptions& o) {
-  if (o.records.empty()) return;
+  if (!o.records.empty()) requireInRecords(o);
+  if (!o.film_room.empty() && o.who == OperatorKind::person && o.records.empty())
+    throw UsageError("is somebody's, and goes with that person's records", "--film-room",
+                     "Say who trains: --trainee, with --records");
+}
+
+namespace {
+
+void requireInRecords(SessionOptions& o) {
   o.records = evidence::absoluteRecords(o.records);
   record::PendingList::usualFolder();  // without one it is said now, not once the session is on
   try {
@@ -41,46 +56,63 @@ void checkTrainee(SessionOptions& o) {
         "This session is nobody's and will not be in the records: --trainee says whose it is\n");
     o.records.clear();
   } catch (const record::StoreUnreachable& e) {
+    o.records_reached = false;
     std::fprintf(stderr, "palpa: %s\n", e.what());
   }
 }
 
+}  // namespace
+
 namespace {
 
-/// What a session's trials will differ in, in the words of the practice pages (`PracticeTrial`).
-std::string conditionOf(const SessionOptions& o, training::Engine engine) {
-  if (engine == training::Engine::search) return o.blocks ? "" : o.mode;
-  if (engine == training::Engine::friction && o.sort) return "put in order";
-  if (o.augment) return "cues on";
-  return o.guidance ? "guided" : "";
+using training::Engine;
+
+/// How this session's trials will be filed, among those of its task; none: they differ among
+/// themselves.
+std::optional<std::string> conditionOf(const SessionOptions& o, Engine engine,
+                                       const nlohmann::json& task) {
+  if (o.blocks) return std::nullopt;
+  const std::string mode = engine == Engine::search ? o.mode : o.sort ? "put in order" : "";
+  const nlohmann::json scoring = task.value("scoring", nlohmann::json::object());
+  const std::string rules = scoring.is_object() && scoring.contains("rules")
+                                ? scoring["rules"].get<std::string>()
+                                : assess::kNewestRules;
+  return evidence::conditionOf(
+      {mode, engine == Engine::needle ? rules : assess::kNewestRules, o.augment, false});
+}
+
+/// As the shipped sessions of experts were held.
+bool isAsShipped(const SessionOptions& o) {
+  return o.force_feedback && !o.augment && !o.guidance && !o.sort && !o.blocks && o.tools == 1 &&
+         o.mode == SessionOptions().mode;
 }
 
 }  // namespace
 
-nlohmann::json othersLike(const SessionOptions& o, bool simulated, const std::string& task_json) {
+void meetOthers(SessionOptions& o, bool simulated, const std::string& task_json) {
+  if (!o.report) return;
   const nlohmann::json task = parseJson(task_json);
   const std::string id = task.value("id", "");
   const auto engine = training::engineNamed(task.value("engine", "needle"));
-  nlohmann::json groups = nlohmann::json::array();
-  if (const auto experts = evidence::shippedExperts(id)) groups.push_back(jsonOf(*experts));
-  if (o.records.empty() || !engine || (*engine == training::Engine::search && o.blocks))
-    return groups;
   try {
+    if (const auto experts = evidence::shippedExperts(id); experts && isAsShipped(o))
+      o.others.push_back(*experts);
+    const auto condition = engine ? conditionOf(o, *engine, task) : std::nullopt;
+    if (o.records.empty() || !o.records_reached || !condition) return;
     record::RecordStore store(o.records);
-    const std::string stored = *engine == training::Engine::needle ? id : training::nameOf(*engine);
-    const std::string condition = conditionOf(o, *engine);
     evidence::PracticeChoice choice;
-    choice.task = stored;
+    choice.task = *engine == Engine::needle ? id : training::nameOf(*engine);
     choice.task_id = id;
+    choice.simulated = simulated ? 1 : 0;
+    choice.without_studies = true;  // what a blind study drew is nobody's to know
     for (const progress::Series& series : progress::seriesOf(evidence::practiceIn(store, choice)))
-      if (series.condition == condition && series.simulated == simulated &&
-          series.force_feedback == o.force_feedback)
-        if (const auto others = progress::othersIn(series, o.trainee))
-          groups.push_back(jsonOf(*others));
+      if (series.condition == *condition && series.force_feedback == o.force_feedback)
+        if (const auto others = progress::othersIn(series, o.trainee)) o.others.push_back(*others);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "palpa: the report will show nobody beside (%s)\n", e.what());
+    const std::string what = e.what();
+    std::fprintf(stderr, "palpa: the report may show nobody beside (%s)\n",
+                 what.substr(0, what.find('\n')).c_str());
   }
-  return groups;
 }
 
 std::vector<progress::Group> othersBeside(const record::SessionInfo& info) {

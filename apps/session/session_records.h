@@ -16,16 +16,18 @@
 /// nobody is recorded.
 namespace palpa::session {
 
-/// Before anything starts: the trainee must be in the records (UsageError). Records that cannot be
+/// Before anything starts: the trainee must be in the records, and who is filmed a trainee
+/// (UsageError). Records that cannot be
 /// reached now are named in one line and do not stop a session. The usual T000 who is not in the
 /// records is nobody: `options.records` is emptied, with a word.
 void checkTrainee(SessionOptions& options);
 
-/// Experts of the task (its text as the evidence has it), and, where the records hold enough of
-/// them, others who train in it as this session does: of the same kind of person, with the same
-/// forces and aids. What cannot be reached now is left out.
-nlohmann::json othersLike(const SessionOptions& options, bool simulated,
-                          const std::string& task_json);
+/// Whom the report shows beside, into `options.others`: experts of the task (its text as the
+/// evidence has it), where they did it so, too; and, where the records hold enough of them, others
+/// who train in it as this session does, with the same forces and aids, in no study; `simulated`:
+/// like these, by person or station. What cannot be read now is left out, with a word. Before
+/// anything is opened: it may take seconds.
+void meetOthers(SessionOptions& options, bool simulated, const std::string& task_json);
 /// Read again from a session's evidence: as they were when it began.
 std::vector<progress::Group> othersBeside(const record::SessionInfo& info);
 

@@ -71,6 +71,8 @@ std::int64_t SessionWatch::endSession(const char* why, std::int64_t now_ns) {
 
 void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   next_look_ns_ = now_ns + kStuckPeriod;
+  if (const std::string words = news_ ? news_() : ""; !words.empty())
+    channels_.signals_to_task.push({trial::UserCommand::remark, words, 1});
   runtime::Executive::Stuck stuck = stuckNow();
   for (const std::string& name : stuck)
     if (!has(stuck_, name)) tellSilent(name);

@@ -34,6 +34,8 @@ class SessionWatch final : public runtime::Activity {
   const char* name() const override { return "watch"; }
   std::int64_t step(std::int64_t now_ns) override;
 
+  /// Asked now and then for what is new of a part that has no line of its own; empty: nothing.
+  void listenTo(std::function<std::string()> news) { news_ = std::move(news); }
   void windowIsLost() noexcept { window_lost_.store(true); }  ///< any thread
 
  private:
@@ -50,6 +52,7 @@ class SessionWatch final : public runtime::Activity {
   const live::LiveSession* const console_;
   std::atomic<bool> window_lost_{false};
   os::InterruptNote note_;
+  std::function<std::string()> news_;
   runtime::Executive::Stuck stuck_;  ///< as last named
   std::int64_t next_look_ns_ = 0;
   std::int64_t asked_ns_ = -1;  ///< the session was asked to end

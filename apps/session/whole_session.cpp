@@ -73,6 +73,7 @@ SessionLeft holdNeedleSession(SessionOptions options) {
   NeedleWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
+  meetOthers(options, isSimulated(options, world), world.task.source);
   sayTaken(options, steadyingFacts(options, world.task.augmentations, world.station));
   return heldIn(options, [&](const std::filesystem::path& folder) {
     if (options.who == OperatorKind::person && options.demonstration)
@@ -91,6 +92,7 @@ SessionLeft holdPalpation(SessionOptions options) {
   settleOperator(options, world.station);
   world.checkFingers(options);
   checkTrainee(options);
+  meetOthers(options, world.head(options).simulated, world.task.source);
   sayTaken(options, world.takenFacts(options));
   return heldIn(options, [&](const std::filesystem::path& folder) {
     const PalpationRun run = runPalpation(options, world, folder);
@@ -108,6 +110,7 @@ SessionLeft holdSqueeze(SessionOptions options) {
   needDesktop(options, "squeezing");
   const SqueezeWorld world(options);
   checkTrainee(options);
+  meetOthers(options, world.head(options).simulated, world.task.source);
   return heldComparison(options, world);
 }
 
@@ -119,6 +122,7 @@ SessionLeft holdSearch(SessionOptions options) {
   settleOperator(options, world.station);
   needDeviceFor(options, world.onBench());
   checkTrainee(options);
+  meetOthers(options, world.head(options).simulated, world.task.source);
   return heldIn(options, [&](const std::filesystem::path& folder) {
     const SearchRun run = runSearch(options, world, folder);
     writeSearchOutcome(options, world, run, folder);
@@ -134,6 +138,7 @@ SessionLeft holdFriction(SessionOptions options) {
   settleOperator(options, world.station);
   needDeviceFor(options, world.onBench());
   checkTrainee(options);
+  meetOthers(options, world.head(options).simulated, world.task.source);
   return heldComparison(options, world);
 }
 
@@ -149,6 +154,7 @@ SessionLeft holdPulse(SessionOptions options) {
         "cannot be felt with a mouse", "--operator person",
         "Give a station with a haptic device (--station), or take --operator expert or novice");
   checkTrainee(options);
+  meetOthers(options, world.head(options).simulated, world.task.source);
   return heldIn(options, [&](const std::filesystem::path& folder) {
     const PulseRun run = runPulse(options, world, folder);
     writePulseOutcome(options, world, run, folder);

@@ -15,6 +15,14 @@ Taxonomy taxonomyOf(const JsonFile& task) {
           task.text("taxonomy/property")};
 }
 
+std::string briefOf(const JsonFile& task) {
+  constexpr std::size_t kMost = 90;  // letters
+  if (!task.has("brief")) return "";
+  std::string brief = task.text("brief");
+  if (brief.size() > kMost) task.refuse("brief", "is longer than 90 letters");
+  return brief;
+}
+
 namespace {
 
 using haptics::LearnedModel;

@@ -23,6 +23,10 @@ struct Taxonomy {
 /// Throws UsageError naming a field that is missing.
 Taxonomy taxonomyOf(const JsonFile& task);
 
+/// What the trainee is to do, a short sentence: the file's "brief"; empty where it has none. Throws
+/// UsageError for one that is no text, or longer than the screen has room for.
+std::string briefOf(const JsonFile& task);
+
 }  // namespace palpa::station
 
 /// Parts of a task that were learned from recordings: a task's file names what `palpa calibrate

@@ -36,6 +36,7 @@ ComparisonSettings settingsOf(const JsonFile& file, training::Engine engine) {
   ComparisonSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
+  s.brief = station::briefOf(file);
   s.touch = file.number("force/touch_N", 0.02, 5);
   s.too_hard = file.number("force/too_hard_N", 0.1, 50);
   s.time_limit_s = file.number("end/time_limit_s", 10, 3600);

@@ -13,7 +13,7 @@ namespace palpa::task_comparison {
 
 /// A comparison task as its file says it (assets/tasks/squeeze.json, friction.json).
 struct ComparisonSettings {
-  std::string id, title;
+  std::string id, title, brief;
   station::LumpLibrary library;  ///< its surface is what is squeezed or stroked
   /// Of what is squeezed: m, from the middle to a side; kg, of the real object
   double half = 0.03, mass = 0.02;

@@ -218,6 +218,7 @@ TaskSettings readTask(const JsonFile& file, const std::filesystem::path& folder)
   TaskSettings task;
   task.id = file.text("id");
   task.title = file.text("title");
+  task.brief = station::briefOf(file);
   task.time_limit_s = file.number("end/time_limit_s", 1, 3600);
   if (file.has("end/most_passes"))
     task.most_passes = {file.integer("end/most_passes/assessed", 0, 100),

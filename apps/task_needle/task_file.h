@@ -90,7 +90,7 @@ struct KeepOutOrgan {
 /// A needle task as its file says it (assets/tasks/*.json). A new site needs a file, not code. It
 /// has an expert path ("expert_path", "scoring") or a goal of its own ("goal").
 struct TaskSettings {
-  std::string id, title;
+  std::string id, title, brief;
   double time_limit_s = 300;
   PassLimit most_passes;
   assess::ScoringRules rules;

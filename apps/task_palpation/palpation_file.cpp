@@ -196,6 +196,7 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   PalpationSettings settings;
   settings.id = file.text("id");
   settings.title = file.text("title");
+  settings.brief = station::briefOf(file);
   settings.size = sizeOf(file);
   settings.seen_as = seenAs(file);
   settings.library = station::readLumps(path.parent_path() / file.text("lumps"));

@@ -51,7 +51,7 @@ struct RealLump {
 /// A palpation task as its file says it (assets/tasks/palpation_*.json). Another phantom, other
 /// lumps, other rules need a file, not code.
 struct PalpationSettings {
-  std::string id, title;
+  std::string id, title, brief;
   /// M, of the phantom: across, away from the trainee, high; its top: scoring.rules.area.top
   Vec3 size = Vec3(0.1, 0.1, 0.05);
   std::optional<anatomy::BodyPart> seen_as;  ///< in the large view

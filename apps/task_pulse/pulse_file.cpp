@@ -122,6 +122,7 @@ PulseSettings readPulse(const std::filesystem::path& path) {
   PulseSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
+  s.brief = station::briefOf(file);
   s.library = station::readLumps(path.parent_path() / file.text("lumps"));
   s.size =
       kMm * Vec3(file.number("phantom/across_mm", 10, 500), file.number("phantom/away_mm", 10, 500),

@@ -30,7 +30,7 @@ struct RhythmFigures {
 
 /// A pulse task as its file says it (assets/tasks/pulse.json).
 struct PulseSettings {
-  std::string id, title;
+  std::string id, title, brief;
   station::LumpLibrary library;      ///< its surface is what is pressed
   Vec3 size = Vec3(0.1, 0.1, 0.05);  ///< m, as it is shown
   haptics::PulseLaw law;

@@ -90,6 +90,7 @@ SearchSettings readSearch(const JsonFile& file) {
   SearchSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
+  s.brief = station::briefOf(file);
   s.spec = specIn(file);
   needFloor(file, s.spec);
   s.rendering.real = {file.number("interaction/stiffness_N_per_m", 10, 1e5),

@@ -20,7 +20,7 @@ struct SearchBlock {
 
 /// A search as its file says it (assets/tasks/search.json). Lengths of the stimulus in U.
 struct SearchSettings {
-  std::string id, title;
+  std::string id, title, brief;
   haptics::SearchSpec spec;
   haptics::FloorRendering rendering;  ///< of the task; the device's limits come of the station
   double degraded_share = 0.2;        ///< of the full stiffness

@@ -44,13 +44,13 @@ Webcam::Webcam(const WebcamSettings& settings) : impl_(std::make_unique<Impl>())
   impl_->set(cv::CAP_PROP_BUFFERSIZE, 1);
   const int width = static_cast<int>(camera.get(cv::CAP_PROP_FRAME_WIDTH)),
             height = static_cast<int>(camera.get(cv::CAP_PROP_FRAME_HEIGHT));
+  if (settings.adjusts) return;
   if (width != settings.width || height != settings.height)
     throw Error(
         "gives pictures of " + sizeText(width, height) + ", not of " +
             sizeText(settings.width, settings.height),
         settings.device,
         "Put a size into the station's file that the camera has, and calibrate it at that size");
-  if (settings.adjusts) return;
   const auto ask = [&](int property, double value, const char* words) {
     if (!impl_->set(property, value)) remarks_.push_back(words);
   };

@@ -17,7 +17,7 @@ struct WebcamSettings {
   double rate_Hz = 30;
   double exposure_ms = 10;
   double gain = -1, focus = -1;  ///< the driver's units; negative: as it is
-  bool adjusts = false;          ///< itself, to light and distance: nothing is measured in it
+  bool adjusts = false;  ///< itself, to light and distance, at any size: nothing is measured in it
 };
 
 /// A camera behind Video4Linux, through OpenCV. Frames carry the driver's stamp of their transfer

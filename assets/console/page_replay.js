@@ -74,6 +74,14 @@ function playerBar(life, player, step) {
     oninput: () => player.seek(Number(slider.value)),
   });
   const time = h("span", { class: "player-time" });
+  const speed = choice(
+    [0.25, 0.5, 1, 2, 4].map((x) => [String(x), `${x} ×`]),
+    "1",
+  );
+  speed.setAttribute("aria-label", "Speed");
+  speed.addEventListener("change", () => {
+    player.rate = Number(speed.value);
+  });
   player.onChange((t, playing) => {
     say(play, playing ? "Pause" : "Play");
     say(time, `${clock(t)} of ${clock(player.length)}`);
@@ -96,6 +104,7 @@ function playerBar(life, player, step) {
       "div",
       { class: "player" },
       play,
+      speed,
       time,
       h(
         "span",
@@ -105,6 +114,23 @@ function playerBar(life, player, step) {
     ),
     h("div", { class: "slider-row" }, slider),
   ];
+}
+
+/** To the beginning of each phase; nothing where a trial has none. */
+function chapters(player, phases) {
+  const named = phases.filter((p) => p.name);
+  if (!named.length) return null;
+  return h(
+    "nav",
+    { class: "chapters", "aria-label": "Phases" },
+    named.map((p) =>
+      h(
+        "button",
+        { type: "button", class: "quiet", onclick: () => player.seek(p.from_s) },
+        `${clock(p.from_s, 0)} ${p.name}`,
+      ),
+    ),
+  );
 }
 
 function eventList(player, moments) {
@@ -259,6 +285,7 @@ function build({ root, life, id, n, replay, options }) {
   root.append(
     views,
     ...playerBar(life, player, 1 / (replay.fps || 5)),
+    ...[chapters(player, replay.phases)].filter((x) => x),
     way,
     room,
     timeline.node,

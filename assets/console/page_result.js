@@ -17,6 +17,7 @@ import {
 import { badge, button, facts, notice, progress, simulatedBadge, table } from "./parts.js";
 import { isRated, ratingForm } from "./rating_form.js";
 import { reportFrame } from "./report_frame.js";
+import { filmDeletion } from "./room_film.js";
 
 /** The one sentence that comes first. */
 function verdict(session) {
@@ -208,6 +209,15 @@ export async function show({ root, life, params: [id], open }) {
       ),
     );
     return;
+  }
+  if (session.film) {
+    const film = h(
+      "div",
+      { class: "card no-print" },
+      h("p", {}, "The room was filmed, with the trainee's agreement: it is seen in the replay."),
+    );
+    film.append(...filmDeletion(id, film));
+    root.append(h("h2", {}, "Film of the room"), film);
   }
   if (isRated(session) && results.length) root.append(...examined(life, id, results));
   const more = pictures(session, files);

@@ -100,7 +100,6 @@ function form(tasks, trainees, me, chosenTrainee) {
     "Only if the trainee agrees, to this session: ask first. It stays on this computer, is in no " +
       "export, and goes when the trainee's records are deleted, or before.",
   );
-  film.node.hidden = !me.room_camera;
   const surface = choice([["", "as the task has it"]], "");
   const surfaceField = field("What lies there", surface, "On the virtual bench: softer or firmer.");
   const trials = number(1, 1, kMostTrials),
@@ -147,12 +146,15 @@ function form(tasks, trainees, me, chosenTrainee) {
     const surfaces = place?.simulated ? (now?.surfaces ?? []) : [];
     surfaceField.hidden = surfaces.length === 0;
     offer(surface, [["", "as the task has it"], ...surfaces.map((s) => [s, s])]);
+    // A film is somebody's: it goes with that person's records.
+    film.node.hidden = !me.room_camera || (operator.value() === "person" && !trainee.value);
     const assess = kind.node.querySelector("input[value=assess]");
     assess.disabled = now?.assessable === false;
     if (assess.disabled && assess.checked)
       kind.node.querySelector("input[value=practice]").checked = true;
   };
   follow();
+  trainee.addEventListener("change", follow);
   const said = h("div", { class: "said" }),
     go = h("button", { type: "submit", class: "primary big", id: "begin" }, "Begin the session");
   const begin = async () => {
@@ -162,7 +164,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       assess: kind.value() === "assess",
       force_feedback: force.box.checked,
       sort: order.box.checked,
-      film: film.box.checked,
+      film: film.box.checked && !film.node.hidden,
       fingers: fingers.box.checked && !fingers.node.hidden ? 2 : 1,
       surface: surface.value,
       operator: operator.value(),

@@ -60,18 +60,32 @@ export function momentsOf(replay) {
   return all.filter((m) => Number.isFinite(m.t)).sort((a, b) => a.t - b.t);
 }
 
-/** Trials that can stand beside: [value "ID/N", words]. */
+/** Of this trainee's other sessions that succeeded the one with the least penalty; or none. */
+function bestOf(trainee, sessions) {
+  const own = sessions.filter(
+    (s) => trainee && s.trainee === trainee && s.outcome?.succeeded && isFinite(s.outcome.total),
+  );
+  return own.sort((a, b) => a.outcome.total - b.outcome.total)[0];
+}
+
+/** Trials that can stand beside: [value "ID/N", words]; the trainee's own best ones first. */
 export async function trialsBeside(session, trial) {
   const sessions = (await list("/api/sessions")).filter((s) => !isOn(s) && s.state !== "failed");
-  const same = sessions.find((s) => s.id === session)?.task;
+  const shown = sessions.find((s) => s.id === session),
+    same = sessions.filter((s) => !shown || s.task === shown.task),
+    best = bestOf(
+      shown?.trainee,
+      same.filter((s) => s.id !== session),
+    );
   const options = [];
-  for (const s of sessions.filter((one) => !same || one.task === same)) {
+  for (const s of best ? [best, ...same.filter((one) => one !== best)] : same) {
     for (let n = 1; n <= (Number(s.trials) || 1); ++n) {
       if (s.id === session && n === trial) continue;
       options.push([
         `${s.id}/${n}`,
         `${taskName(s)}, ${moment(s.started_utc)}, ${who(s.trainee)}, trial ${n}` +
-          (s.simulated ? ", simulated" : ""),
+          (s.simulated ? ", simulated" : "") +
+          (s === best ? ": own best so far" : ""),
       ]);
     }
   }

@@ -7,6 +7,7 @@ export class Player {
     this.length = length_s;
     this.t = 0;
     this.playing = false;
+    this.rate = 1;
     this.listeners = new Set();
   }
   onChange(listener) {
@@ -31,7 +32,7 @@ export class Player {
     let before = performance.now();
     const go = (now) => {
       if (!this.playing) return;
-      this.t += (now - before) / 1000;
+      this.t += (this.rate * (now - before)) / 1000;
       before = now;
       if (this.t >= this.length) {
         this.t = this.length;

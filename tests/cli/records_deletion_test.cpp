@@ -73,6 +73,7 @@ TEST_F(Deletion, LeavesNoByteOfThePerson) {
   train(kGone, "out/C", false);
   useConsole();
   here_.file("out/A/notes.txt", "of the educator");
+  for (const char* film : {"out/A/room.mjpeg", "out/A/room.mjpeg.csv"}) here_.file(film, "a face");
   const std::string store = (here_ / "records.sqlite").string();
   record::PendingList(here_ / "state/palpa/pending")
       .note({uuidIn(here_ / "out/C/session.palpa"), here_ / "out/C/session.palpa", store});
@@ -83,6 +84,7 @@ TEST_F(Deletion, LeavesNoByteOfThePerson) {
   EXPECT_EQ(deleted.exit_code, 0) << deleted.out << deleted.err;
   EXPECT_TRUE(says(deleted.out, "Kept, since no session wrote it: ")) << deleted.out;
   expectNoByteOf(kGone);
+  expectNoByteOf("a face");
   EXPECT_EQ(contentOf(here_ / "out/A/notes.txt"), "of the educator");
   EXPECT_EQ(contentOf(here_ / "out/B/trials.csv"), stays);
   EXPECT_TRUE(fs::exists(here_ / "out/B/session.palpa"));

@@ -28,6 +28,8 @@ TEST(PersonTraces, SessionsAreToldApartByTheirRequest) {
 
   put(home / "sessions/a/log.txt", "In the records of T1");
   put(home / "sessions/a/replay-1/pictures.json", "{}");
+  put(home / "sessions/a/room.mjpeg", "a face");
+  put(home / "sessions/a/room.mjpeg.csv", "when");
   PersonTraces traces;
   removeSessionTraces(home / "sessions/a", &traces);
   EXPECT_FALSE(fs::exists(home / "sessions/a"));

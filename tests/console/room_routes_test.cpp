@@ -68,6 +68,7 @@ class RoomRoutes : public testing::Test {
                                                      {"trainee", ""},
                                                      {"started_utc", "2026-11-30T10:00:00Z"},
                                                      {"assessed", false},
+                                                     {"filmed", true},
                                                      {"simulated", false},
                                                      {"study", blind},
                                                      {"blind", blind},
@@ -127,12 +128,27 @@ TEST_F(RoomRoutes, ItIsDeletedOnAWishAndNothingElseIs) {
   EXPECT_TRUE(fs::exists(folder() / "session.palpa"));
 }
 
+// A trainee may withdraw before the first trial, and evidence may be damaged.
+TEST_F(RoomRoutes, ItIsFoundAndDeletedWhateverElseIsThere) {
+  std::ofstream(folder() / "session.palpa") << "damaged";
+  Served console(home(), sockets_.path());
+  EXPECT_EQ(console.get("/api/sessions/A1")["film"], true);
+  EXPECT_EQ(console.post("/api/sessions/A1/room/delete", json::object()), 200);
+  EXPECT_EQ(console.get("/api/sessions/A1")["film"], false);
+}
+
+TEST_F(RoomRoutes, WhoIsFilmedIsSaid) {
+  Served console(home(), sockets_.path());
+  EXPECT_EQ(console.get("/api/sessions/A1")["filmed"], true);
+}
+
 TEST_F(RoomRoutes, ABlindStudyShowsNone) {
   describe(true);
   Served console(home(), sockets_.path());
   httplib::Client client = console.client();
   EXPECT_EQ(client.Get("/api/sessions/A1/trials/1/room")->status, 422);
   EXPECT_EQ(client.Get("/api/sessions/A1/room/0/5")->status, 422);
+  EXPECT_EQ(console.get("/api/sessions/A1")["film"], false);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using progress::Group;
 
-const Group kExperts{"experts", "eight of ten of their trials",
+const Group kExperts{"experts", "8 of 10 of their trials",
                      true,      3,
                      60,        {{"total", 400, 500, 700}, {"success", 1, 1, 1}}};
 const Group kOthers{"others who train here",
@@ -46,7 +46,7 @@ TEST(StandingPage, TellsWhatOthersReachInTheFiguresUnit) {
       << page;
   EXPECT_TRUE(says(page, "61 s; others who train here 30 s to 50 s"));
   EXPECT_TRUE(says(page, "(less is better)"));
-  EXPECT_TRUE(says(page, "experts (simulated): eight of ten of their trials"));
+  EXPECT_TRUE(says(page, "experts (simulated): where 8 of 10 of their trials lie"));
   EXPECT_FALSE(says(page, "others who train here (simulated)"));
   EXPECT_FALSE(says(page, "Successful")) << "yes or no has no range";
 }

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
@@ -22,8 +25,8 @@ namespace palpa::runtime {
 namespace {
 
 struct Stands final : Clock {
-  std::int64_t now_ns = 0;
-  std::int64_t now() const noexcept override { return now_ns; }
+  std::atomic<std::int64_t> now_ns{0};
+  std::int64_t now() const noexcept override { return now_ns.load(); }
   std::int64_t ofMonotonic(std::int64_t t_ns) const noexcept override {
     return t_ns - 1000 * kSecond;
   }
@@ -52,13 +55,13 @@ struct Played final : ar::Camera {
   int pictures, fails, next = 0;
 };
 
-/// Steps until it is finished, at the times it asks for; at most 2000 times.
-void play(RoomFilm& film, Stands& clock) {
-  for (int i = 0; i < 2000; ++i) {
-    const std::int64_t next = film.step(clock.now_ns);
-    if (next == kNever) return;
-    clock.now_ns = std::max(clock.now_ns, next);
-  }
+/// Steps until it is finished: at the times it asks for, or whenever the camera has given some.
+void play(RoomFilm& film, Stands& clock, bool waits) {
+  EXPECT_TRUE(comesTrue(std::chrono::seconds(60), [&] {
+    const std::int64_t next = film.step(clock.now());
+    if (!waits && next != kNever) clock.now_ns = next;
+    return next == kNever;
+  }));
 }
 
 struct Line {
@@ -88,8 +91,9 @@ TEST(RoomFilm, KeepsEightPicturesASecondWithTheirTimesAndPlaces) {
   {
     RoomFilm film([&] { return std::make_unique<Played>(clock, 20 * kMillisecond, 100); }, true,
                   folder.path(), clock);
-    play(film, clock);
+    play(film, clock, true);
     EXPECT_EQ(film.trouble(), "");
+    EXPECT_EQ(film.news(), "");
     EXPECT_EQ(film.pictures(), 15u);  // of two seconds at 140 ms, a multiple of the camera's 20
   }
   const std::string film = test::slurp(folder / "room.mjpeg");
@@ -119,10 +123,34 @@ TEST(RoomFilm, ACameraThatFailsIsAskedAgain) {
         return std::make_unique<Played>(clock, 200 * kMillisecond, 10, opened == 1 ? 5 : -1);
       },
       true, folder.path(), clock);
-  play(film, clock);
+  play(film, clock, true);
   EXPECT_EQ(opened, 3);
   EXPECT_EQ(film.pictures(), 15u);
   EXPECT_NE(film.trouble().find("/dev/video2"), std::string::npos);
+  EXPECT_EQ(film.news(), film.trouble());
+  EXPECT_EQ(film.news(), "") << "once";
+}
+
+// A driver may wait for ever for a picture that does not come.
+TEST(RoomFilm, ACameraThatHangsHoldsNothingUp) {
+  struct Hangs final : ar::Camera {
+    explicit Hangs(std::shared_future<void> until) : end(std::move(until)) {}
+    std::optional<ar::Frame> grab() override {
+      end.wait();
+      return std::nullopt;
+    }
+    std::shared_future<void> end;
+  };
+  const test::ScratchFolder folder("room-hangs");
+  Stands clock;
+  std::promise<void> end;
+  const std::shared_future<void> ended = end.get_future().share();
+  {
+    RoomFilm film([&] { return std::make_unique<Hangs>(ended); }, true, folder.path(), clock);
+    EXPECT_LT(film.step(0), kSecond);
+    EXPECT_EQ(film.pictures(), 0u);
+  }  // comes back although the camera does not
+  end.set_value();
 }
 
 TEST(RoomFilm, AFilmThatIsThereIsNotWrittenOver) {
@@ -144,7 +172,7 @@ TEST(RoomFilm, WhatCannotBeWrittenEndsTheFilm) {
   auto* const ignored = std::signal(SIGXFSZ, SIG_IGN);
   const ::rlimit small{30'000, before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  play(film, clock);
+  play(film, clock, false);
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, ignored);
   EXPECT_NE(film.trouble().find("disk"), std::string::npos);

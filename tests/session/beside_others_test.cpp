@@ -17,15 +17,15 @@ namespace {
 
 using nlohmann::json;
 
-/// Records of six trainees, each with one session of three trials in the task of this file's id.
+/// Records of nine trainees, each with one session of three trials in the task of this file's id.
 class Records {
  public:
   explicit Records(const std::string& name) : url_((freshPlace(name) / "r.sqlite").string()) {}
 
   void hold(const std::string& stored_as, const std::string& task_id,
-            const json& more = json::object()) {
+            const json& more = json::object(), const std::string& study = "") {
     record::RecordStore store(url_);
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 9; ++i) {
       const std::string who = "T" + std::to_string(i);
       record::Trainee trainee;
       trainee.id = who;
@@ -35,6 +35,7 @@ class Records {
       session.trainee = who;
       session.started_utc = "2027-01-10T09:00:00Z";
       session.task = stored_as;
+      session.study = study;
       session.evidence = "/nowhere/" + who;
       json facts{{"task", task_id}};
       facts.update(more);
@@ -69,8 +70,9 @@ json beside(const Records& records, const std::string& task, const char* name,
   options.records = records.url();
   options.trainee = "T0";
   if (as) as(options);
-  for (const json& group : othersLike(options, false, task))
-    if (group.at("name") == name) return group;
+  meetOthers(options, false, task);
+  for (const progress::Group& group : options.others)
+    if (group.name == name) return jsonOf(group);
   return nullptr;
 }
 
@@ -85,8 +87,8 @@ TEST(BesideOthers, OnlyWhoDidTheSameInTheSameWay) {
   constexpr const char* kOthers = "others who train here";
   const json others = beside(records, breast, kOthers);
   ASSERT_FALSE(others.is_null());
-  EXPECT_EQ(others.at("people"), 5) << "without who asks";
-  EXPECT_EQ(others.at("figures").at("time_s").at("middle"), 40);  // of 20 to 60 s
+  EXPECT_EQ(others.at("people"), 8) << "without who asks";
+  EXPECT_EQ(others.at("figures").at("time_s").at("middle"), 55);  // of 20 to 90 s
   EXPECT_TRUE(beside(records, neck, kOthers).is_null()) << "another part of the body";
   EXPECT_TRUE(beside(records, breast, kOthers, [](SessionOptions& o) {
                 o.force_feedback = false;
@@ -95,6 +97,13 @@ TEST(BesideOthers, OnlyWhoDidTheSameInTheSameWay) {
       beside(records, breast, kOthers, [](SessionOptions& o) { o.augment = true; }).is_null());
   EXPECT_TRUE(
       beside(records, breast, kOthers, [](SessionOptions& o) { o.records = ""; }).is_null());
+}
+
+TEST(BesideOthers, WhoTakesPartInAStudyIsNoOther) {
+  Records records("studies");
+  records.hold("palpation", "palpation-breast", json::object(), "some-study");
+  EXPECT_TRUE(
+      beside(records, taskText("palpation_breast.json"), "others who train here").is_null());
 }
 
 TEST(BesideOthers, RecordsThatCannotBeReadHoldNoSessionUp) {
@@ -108,6 +117,9 @@ TEST(BesideOthers, ExpertsAreThoseThatAreShipped) {
   const json experts = beside(none, taskText("paracentesis.json"), "experts");
   ASSERT_FALSE(experts.is_null());
   EXPECT_EQ(experts.at("simulated"), true);
+  const auto without = [](SessionOptions& o) { o.force_feedback = false; };
+  EXPECT_TRUE(beside(none, taskText("paracentesis.json"), "experts", without).is_null())
+      << "experts felt it";
   EXPECT_TRUE(beside(none, R"({"id": "somebodys_own", "engine": "needle"})", "experts").is_null());
 }
 
@@ -116,6 +128,7 @@ TEST(BesideOthers, StandsInTheEvidence) {
   SessionOptions options = quick(OperatorKind::expert, 5);
   NeedleWorld world(options);
   world.station.camera_rate_Hz = 1;
+  meetOthers(options, true, world.task.source);
   const std::filesystem::path folder = freshPlace("evidence");
   runNeedleSession(options, world, folder);
   const record::SessionReader session(folder / "session.palpa");

@@ -48,7 +48,8 @@ TEST(Heard, IsAFactOfTheSession) {
   EXPECT_EQ(soundIn(offscreen), "") << "there is none to be turned off";
   for (const bool on : {true, false}) {
     const SessionOptions options = with(&SessionOptions::sound, on);
-    const record::SessionInfo info = infoOf(options, headOf(options, "", {}, false));
+    const record::SessionInfo info =
+        infoOf(options, headOf(options, "", {}, false), R"({"id": "any"})");
     EXPECT_EQ(nlohmann::json::parse(info.session_json).at("sound"), on);
   }
 }

@@ -31,8 +31,9 @@ std::optional<Group> expertsOf(const std::vector<PracticeTrial>& trials) {
   std::copy_if(trials.begin(), trials.end(), std::back_inserter(counted), counts);
   if (counted.empty()) return std::nullopt;
   Group group{.name = "experts",
-              .what = "eight of ten of their trials",
-              .simulated = counted.front().simulated,
+              .what = "8 of 10 of their trials",
+              .simulated = std::any_of(counted.begin(), counted.end(),
+                                       [](const PracticeTrial& t) { return t.simulated; }),
               .people = 0,
               .trials = counted.size(),
               .figures = {}};
@@ -49,7 +50,7 @@ std::optional<Group> expertsOf(const std::vector<PracticeTrial>& trials) {
 
 std::optional<Group> othersIn(const Series& series, const std::string& left_out) {
   Group group{.name = "others who train here",
-              .what = "the middle half of them, each by the mean of the last five trials",
+              .what = "the middle half of them, by the means of their last five trials",
               .simulated = series.simulated,
               .people = 0,
               .trials = 0,

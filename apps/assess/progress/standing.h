@@ -20,8 +20,8 @@ struct Reach {
 
 struct Group {
   std::string name;        ///< "experts", "others who train here"
-  std::string what;        ///< what `low` to `high` is: "eight of ten of their trials"
-  bool simulated = false;  ///< its people are
+  std::string what;        ///< what lies from `low` to `high`: "8 of 10 of their trials"
+  bool simulated = false;  ///< any of its people, or their station, was
   std::size_t people = 0, trials = 0;
   std::vector<Reach> figures;                         ///< those that a page shows of the engine
   const Reach* reach(std::string_view metric) const;  ///< null: none of this metric
@@ -31,8 +31,8 @@ struct Group {
 /// them. None without a trial.
 std::optional<Group> expertsOf(const std::vector<PracticeTrial>& trials);
 
-/// A reach of fewer others would say of somebody what he or she reached.
-inline constexpr std::size_t kFewestOthers = 5;
+/// Of fewer others a reach would be what two or three of them reached, who may know each other.
+inline constexpr std::size_t kFewestOthers = 8;
 
 /// Of each trainee the mean over the last five trials that have the figure; of these means the
 /// middle half, and the median. `left_out`: who asks. None for fewer than `kFewestOthers`.

@@ -128,9 +128,9 @@ void writeKey(Html& html, const std::vector<progress::Group>& groups) {
   say("here", "this session's trials");
   for (std::size_t i = 0; i < groups.size(); ++i)
     say(i == 0 ? "first" : "other",
-        groups[i].name + (groups[i].simulated ? " (simulated)" : "") + ": " + groups[i].what +
-            "; the line is their median (" + counted(groups[i].trials, "trial") + " of " +
-            (groups[i].people == 1 ? "one" : std::to_string(groups[i].people)) + ")");
+        groups[i].name + (groups[i].simulated ? " (simulated)" : "") + ": where " + groups[i].what +
+            " lie, and the middle one; " + counted(groups[i].trials, "trial") + " of " +
+            (groups[i].people == 1 ? "one person" : std::to_string(groups[i].people) + " people"));
 }
 
 }  // namespace

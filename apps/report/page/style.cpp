@@ -212,15 +212,15 @@ svg .wall{stroke:var(--ink);stroke-width:2}
 .standing{display:block;width:100%;height:36px;border-radius:4px}
 .standing .group{fill:var(--phase)}
 .standing .group.first{fill:var(--blue);fill-opacity:.45}
-.standing .middle{fill:var(--ink)}
-.standing .here{fill:var(--bad)}
+.standing .middle{fill:var(--card)}
+.standing .here{fill:var(--ink)}
 .standing-row p{margin:.9rem 0 .3rem}
 .standing-row p.muted{margin:.3rem 0 0}
 .standing-key{list-style:none;margin:1.2rem 0 0;padding:0;font-size:.875rem;color:var(--muted)}
 .swatch{display:inline-block;width:1.1rem;height:.7rem;margin-right:.5rem;border-radius:2px;
   background:var(--phase)}
 .swatch.first{background:var(--blue);opacity:.45}
-.swatch.here{width:.3rem;height:.9rem;margin:0 .9rem 0 .4rem;background:var(--bad);vertical-align:-.1rem}
+.swatch.here{width:.3rem;height:.9rem;margin:0 .9rem 0 .4rem;background:var(--ink);vertical-align:-.1rem}
 @media (max-width:899px){
   main,header,footer{padding-left:12px;padding-right:12px}
   .card{padding:20px 16px}
