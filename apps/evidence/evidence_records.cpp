@@ -299,15 +299,18 @@ std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,
       if (trainee.group == choice.group) group.insert(trainee.id);
   std::vector<progress::PracticeTrial> all;
   Practice practice;
-  store.eachTrial(
-      {.trainee = choice.trainee, .task = training::taskIdOf(choice.task)},
-      [&](const record::TrialWithSession& stored) {
-        const auto& out = choice.left_out;
-        if (std::find(out.begin(), out.end(), stored.session.study) != out.end()) return;
-        if (!choice.task_id.empty() && practice.taskId(stored.session) != choice.task_id) return;
-        if (choice.group.empty() || group.contains(stored.session.trainee))
-          all.push_back(practice.of(stored));
-      });
+  record::TrialFilter filter;
+  filter.trainee = choice.trainee;
+  filter.task = training::taskIdOf(choice.task);
+  filter.simulated = choice.simulated;
+  store.eachTrial(filter, [&](const record::TrialWithSession& stored) {
+    if (choice.without_studies && !stored.session.study.empty()) return;
+    const auto& out = choice.left_out;
+    if (std::find(out.begin(), out.end(), stored.session.study) != out.end()) return;
+    if (!choice.task_id.empty() && practice.taskId(stored.session) != choice.task_id) return;
+    if (choice.group.empty() || group.contains(stored.session.trainee))
+      all.push_back(practice.of(stored));
+  });
   return all;
 }
 
