@@ -9,6 +9,7 @@
 #include "apps/assess/competence/form.h"
 #include "apps/evidence/expert_ranges.h"
 #include "apps/presentation/presentation.h"
+#include "apps/station/assets.h"
 #include "apps/station/material_files.h"
 #include "apps/station/station_file.h"
 #include "apps/study/analysis/study_design.h"
@@ -118,6 +119,15 @@ json realStation() {
             {"sigma_deg", 0.1},
             {"ask_tdata_ms", 10}}},
           {"twin", nullptr}};
+}
+
+/// Of the experts' ranges those of two tasks: the others are of the same form.
+json aTaskOfEach() {
+  const fs::path file = station::assetFile("tasks/expert_ranges.json");
+  json others = json::object();
+  for (const auto& [id, group] : evidence::readExpertRanges(file))
+    if (id != "bone_pin" && id != "pulse") others[id] = nullptr;
+  return {{"tasks", others}};
 }
 
 Kind stationKind() {
@@ -356,7 +366,7 @@ std::vector<Kind> patientKinds() {
        .forgiving = {},
        .elsewhere = {}},
       {.name = "expert_ranges",
-       .samples = {{"tasks/expert_ranges.json", json::object()}},
+       .samples = {{"tasks/expert_ranges.json", aTaskOfEach()}},
        .read = [](const fs::path& file) { evidence::readExpertRanges(file); },
        // Names of figures are the program's; low, middle and high are in their order.
        .stricter = {"/tasks/[^/]*/figures.*"},

@@ -57,7 +57,8 @@ constexpr Place kPlaces[] = {
     {"tasks/palpation_[^/]+", "task_palpation"},
     {"tasks/search.json", "task_search"},
     {"tasks/squeeze.json", "task_squeeze"},
-    {"tasks/(?!.*_expert_path)[^/]+", "task"},
+    {"tasks/expert_ranges.json", "expert_ranges"},
+    {"tasks/(?!.*_expert_path|expert_ranges)[^/]+\\.json", "task"},
     {"tracking/[^/]+", "tracking_model"},
 };
 

@@ -118,6 +118,12 @@ std::string figuresIn(const Row& row, const std::vector<progress::Group>& groups
   return words;
 }
 
+std::string keyOf(const progress::Group& group) {
+  return group.name + (group.simulated ? " (simulated)" : "") + ": where " + group.what +
+         " lie, and the middle one; " + counted(group.trials, "trial") +
+         (group.people > 1 ? " of " + std::to_string(group.people) + " people" : "");
+}
+
 void writeKey(Html& html, const std::vector<progress::Group>& groups) {
   const auto list = html.in("ul", {{"class", "standing-key"}});
   const auto say = [&](const char* looks, const std::string& words) {
@@ -127,10 +133,7 @@ void writeKey(Html& html, const std::vector<progress::Group>& groups) {
   };
   say("here", "this session's trials");
   for (std::size_t i = 0; i < groups.size(); ++i)
-    say(i == 0 ? "first" : "other",
-        groups[i].name + (groups[i].simulated ? " (simulated)" : "") + ": where " + groups[i].what +
-            " lie, and the middle one; " + counted(groups[i].trials, "trial") + " of " +
-            (groups[i].people == 1 ? "one person" : std::to_string(groups[i].people) + " people"));
+    say(i == 0 ? "first" : "other", keyOf(groups[i]));
 }
 
 }  // namespace
