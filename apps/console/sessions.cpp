@@ -70,6 +70,7 @@ json trialOf(const record::RecordedTrial& trial, const std::vector<runtime::Even
            {"role", trial.header.role},
            {"outcome", trial.ended ? trial.end.outcome : "interrupted"},
            {"reason", trial.end.reason},
+           {"counts", training::countsAsScored(training::roleNamed(trial.header.role))},
            {"length_s", trial.length_s()}};
   const json scores = parsedOrDiscarded(trial.end.scores_json);
   if (scores.is_object() && scores.contains("TOTAL")) one["total"] = scores["TOTAL"];
@@ -102,7 +103,8 @@ json outcomeOf(const json& trials) {
   double total = 0;
   for (const json& trial : trials) {
     const std::string outcome = trial.at("outcome");
-    if (training::isVoid(outcome) || outcome == "interrupted") continue;
+    if (training::isVoid(outcome) || outcome == "interrupted" || trial.at("counts") == false)
+      continue;
     ++counting;
     succeeded += outcome == "success";
     done += outcome == "done";

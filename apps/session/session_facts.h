@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -108,7 +109,9 @@ report::SubtaskSection partsOf(const report::SubtaskMeanings& meanings, const Tr
     const auto [doses, augmented, seconds] = of(trial);
     section.trials.push_back(doses);
     section.augmented += augmented;
-    section.seconds += seconds;
+    double longest = seconds;  // the question after an aspiration is no time of the trial
+    for (const assess::SubtaskDose& dose : doses) longest = std::max(longest, dose.on_s);
+    section.seconds += longest;
   }
   return section;
 }

@@ -17,6 +17,7 @@ constexpr std::int64_t kStuck = 2 * runtime::kSecond;
 // What may take long: a Falcon without power is greeted for 5 s, its firmware takes as long.
 constexpr std::int64_t kSlowStuck = 10 * runtime::kSecond;
 constexpr int kKeyWait_ms = 50;
+constexpr int kMostTold = 4;  // of one part's silences; a slow computer's would hide all else
 
 }  // namespace
 
@@ -93,13 +94,19 @@ runtime::Executive::Stuck SessionWatch::stuckNow() const {
 /// no force, and is no matter for the report: its driver says what it lacks.
 void SessionWatch::tellSilent(const std::string& activity) {
   const bool device = falcon_ && activity == falcon_->name(), pushes = device && falcon_->mayPush();
-  const std::string words = partInWords(activity) + " does not answer" +
-                            (pushes ? " and may keep its last force: switch its power off" : "") +
-                            "; all other parts go on";
+  const int time = ++silences_[activity];
+  if (time > kMostTold && !pushes) return;
+  const std::string words =
+      partInWords(activity) + " does not answer" +
+      (pushes ? " and may keep its last force: switch its power off" : "") +
+      (time == kMostTold && !pushes ? " once more: the computer is too slow; this is not told again"
+                                    : "; all other parts go on");
   channels_.signals_to_task.push({trial::UserCommand::remark, words, device && !pushes ? 0. : 1.});
 }
 
 void SessionWatch::tellBack(const std::string& activity) {
+  const bool device = falcon_ && activity == falcon_->name();
+  if (silences_[activity] >= kMostTold && !device) return;
   channels_.signals_to_task.push(
       {trial::UserCommand::remark, partInWords(activity) + " answers again", 0});
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -53,7 +55,8 @@ class SessionWatch final : public runtime::Activity {
   std::atomic<bool> window_lost_{false};
   os::InterruptNote note_;
   std::function<std::string()> news_;
-  runtime::Executive::Stuck stuck_;  ///< as last named
+  runtime::Executive::Stuck stuck_;      ///< as last named
+  std::map<std::string, int> silences_;  ///< of each part so far
   std::int64_t next_look_ns_ = 0;
   std::int64_t asked_ns_ = -1;  ///< the session was asked to end
   bool heard_ = false;          ///< there was room for the request

@@ -46,6 +46,15 @@ std::string touchedText(const runtime::ToolState& tool) {
 
 }  // namespace
 
+namespace {
+
+std::string questionText(double within_s) {
+  const std::string question = "What did you draw? 1: vein, 2: artery, 3: neither";
+  return within_s > 0 ? question + format(" (%.0f s left)", std::ceil(within_s)) : question;
+}
+
+}  // namespace
+
 bool injury(const runtime::ToolState& tool) {
   return tool.tissue == Tissue::lung || tool.wall == Organ::lung ||
          tool.tissue == Tissue::artery_lumen || tool.wall == Organ::artery;
@@ -70,14 +79,17 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
   if (hurts)
     own = "The needle touches the " +
           std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
-  else if (status.asked)
-    own = "What is it? 1: vein, 2: artery, 3: neither";
   else if (status.flows == Tissue::lung)
     own = "Bubbles rise in the syringe";
   else if (status.flows != Tissue::air)
     own = "Blood flows into the syringe";
   trial::noticeOf(status, tool.safety, own, camera, &hud);
   hud.alarm = hud.alarm || (hurts && hud.notice == own);
+  // An answer decides the trial, and is waited for a few seconds: no other word takes its place.
+  if (active && status.asked && !status.emergency_stop) {
+    hud.notice = questionText(status.answer_within_s);
+    hud.alarm = false;
+  }
   hud.mark = mark;
   return hud;
 }

@@ -188,6 +188,7 @@ void NeedleTask::aspirate(const assess::TrialSample& sample, double dt, std::int
   if (question_.asked() && !shown_.asked)
     report(now_ns, EventKind::phase, "It is asked what is aspirated");
   shown_.asked = question_.asked();
+  shown_.answer_within_s = shown_.asked ? rules.told_within_s - question_.waited_s() : 0;
   if (shown_.asked && question_.waited_s() > rules.told_within_s)
     endTrial(
         Outcome::mistaken,

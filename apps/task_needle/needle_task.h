@@ -26,6 +26,7 @@ struct TaskStatus : trial::TrialStatus {
   Tissue flows = Tissue::air;     ///< whose blood or air enters the syringe now
   Tissue holds = Tissue::air;     ///< whose blood is in it
   bool asked = false;             ///< what is aspirated: vein, artery or neither
+  double answer_within_s = 0;     ///< so long it is waited for; 0: not known
 };
 
 struct TrialPlan {

@@ -40,9 +40,9 @@ std::vector<KeyHelp> saidIn(Engine engine) {
 std::vector<KeyHelp> movedBy(HeldBy held, bool left_handed) {
   switch (held) {
     case HeldBy::mouse_needle:
-      return {{"drag", "the needle over the skin"},
-              {"wheel", "the needle along itself, in and out"},
-              {"arrows", "turn the needle about its entry"},
+      return {{"drag", "moves the needle over the skin"},
+              {"wheel", "moves it along itself, in and out"},
+              {"arrows", "turn it about its entry"},
               {left_handed ? "., comma" : "Z, X", "draw the plunger, push it"}};
     case HeldBy::mouse_finger:
       return {{"mouse", "moves the finger; hold the left button to press"}};
@@ -106,7 +106,7 @@ std::vector<KeyHelp> keysOf(const KeysInUse& use) {
 std::string movedWords(HeldBy held, bool left_handed) {
   switch (held) {
     case HeldBy::mouse_needle:
-      return std::string("Drag: over the skin. Wheel: in and out. ") +
+      return std::string("Drag: over the skin. Arrows: turn. Wheel: in and out. ") +
              (left_handed ? ". (full stop)" : "Z") + ": draw the plunger";
     case HeldBy::mouse_finger:
       return "Mouse: moves the finger. Left button: presses";

@@ -92,9 +92,11 @@ void TrialTask::becomeReady(std::int64_t now_ns) {
   const std::string warning = status_.trial == 0 ? sayWarnings(now_ns) : "";
   status_.state = TrialState::waiting;
   since_ns_ = now_ns;
-  if (!lead_.automatic)
-    status_.notice = warning.empty() ? "Press Enter to start. ? shows keys"
-                                     : warning + ". Enter starts, ? shows keys";
+  if (lead_.automatic) return;
+  status_.notice = warning.empty() ? "Press Enter to start. ? shows keys"
+                                   : warning + ". Enter starts, ? shows keys";
+  // Over the picture, where no tool can hide it.
+  if (warning.empty() && !aim_.empty()) status_.notice = aim_ + " Enter starts, ? shows keys";
 }
 
 /// All for the evidence, the first for the notice; none forbids a trial.

@@ -6,13 +6,14 @@
 
 namespace palpa::trial {
 
-std::string endNotice(training::Role role, training::Outcome outcome, const std::string& result) {
+std::string endNotice(training::Role role, training::Outcome outcome, const std::string& result,
+                      const std::string& reason) {
   using training::Outcome;
   const bool broken_off = outcome == Outcome::aborted || outcome == Outcome::voided;
   if (training::inAssessment(role) && !broken_off)
     return "Trial ended. The report gives the result";
   if (outcome == Outcome::success || outcome == Outcome::done) return result;
-  return "Trial ended: " + training::nameOf(outcome);
+  return reason.empty() ? "Trial ended: " + training::nameOf(outcome) : "Trial ended. " + reason;
 }
 
 namespace {

@@ -32,8 +32,9 @@ struct TrialStatus {
 };
 
 /// What stands on the screen until the next trial: `result` where the trial came to its end, else
-/// how it ended; in an assessment neither, unless it was broken off, which judges nobody.
-std::string endNotice(training::Role role, training::Outcome outcome, const std::string& result);
+/// why, or how it ended; in an assessment neither, unless it was broken off, which judges nobody.
+std::string endNotice(training::Role role, training::Outcome outcome, const std::string& result,
+                      const std::string& reason = "");
 
 /// The scene shall keep a picture of this moment.
 struct PictureRequest {

@@ -107,7 +107,7 @@ void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_
                                                reason,
                                                outcome == Outcome::voided ? "" : end.scores_json});
   status_.state = TrialState::ended;
-  status_.notice = endNotice(status_.role, outcome, end.result);
+  status_.notice = endNotice(status_.role, outcome, end.result, reason);
   since_ns_ = now_ns;
 }
 
@@ -336,7 +336,8 @@ std::string TrialTask::canDo() const {
 
 std::string TrialTask::aim() const {
   const bool before = status_.state == TrialState::checking || status_.state == TrialState::waiting;
-  return before && !lead_.automatic ? aim_ : "";
+  const bool said = !aim_.empty() && status_.notice.starts_with(aim_);
+  return before && !lead_.automatic && !said ? aim_ : "";
 }
 
 void TrialTask::publish(std::int64_t now_ns) {

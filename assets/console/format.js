@@ -80,7 +80,7 @@ export function sessionOutcome(s) {
   if (s.blind) return ["none", "blind study"];
   if (!o) return ["none", "–"];
   if (o.counting === 0) return ["none", "no trial counts"];
-  if (o.done > 0) return ["good", `${o.done} of ${o.counting} done`];
+  if (o.done > 0) return ["none", `${o.done} of ${o.counting} done`];
   return [
     o.succeeded === o.counting ? "good" : "note",
     `${o.succeeded} of ${o.counting} succeeded`,

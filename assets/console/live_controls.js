@@ -136,9 +136,10 @@ export class LiveControls {
     const { state } = status,
       on = state === "running" || state === "paused",
       stopped = !!status.emergency_stop;
+    const upcoming = Number(status.trial) + 1; // `trial` is the last one that began
     const next =
       Number(status.trials) > 1
-        ? `Start trial ${status.trial} of ${status.trials}`
+        ? `Start trial ${Math.min(upcoming, status.trials)} of ${status.trials}`
         : "Start the trial";
     // The last trial's result stands at the station until somebody closes it.
     const last = state === "ended" && Number(status.trial) >= Number(status.trials);

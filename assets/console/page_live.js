@@ -190,7 +190,9 @@ export async function show({ root, life, params: [id], open }) {
   const showStatus = (s) => {
     time.running = s.state === "running";
     const [tone, word] = liveState(s.state),
-      of = Number(s.trials) > 1 ? `, trial ${s.trial} of ${s.trials}` : "";
+      between = ["checking", "waiting"].includes(s.state), // the next one is meant
+      at = Math.min(Number(s.trial) + (between ? 1 : 0), Number(s.trials)),
+      of = Number(s.trials) > 1 ? `, trial ${at} of ${s.trials}` : "";
     const line = `${word}${of}${s.notice && !s.alarm ? `. ${s.notice}` : ""}`;
     if (line !== stateShown) {
       stateShown = line;

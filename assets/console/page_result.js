@@ -27,7 +27,7 @@ function verdict(session) {
     return ["note", `The session ended without a report. ${session.message || ""}`];
   if (session.blind)
     return ["none", `${plural(results.length, "trial")} recorded; the study is blind.`];
-  const counting = results.filter((r) => r.outcome !== "void"),
+  const counting = results.filter((r) => r.outcome !== "void" && r.counts !== false),
     good = counting.filter((r) => r.outcome === "success");
   if (counting.length === 0)
     return ["none", results.length ? "No trial counts: all are void." : "No trial was held."];

@@ -91,7 +91,7 @@ function form(tasks, trainees, me, chosenTrainee) {
     me.display ? "person" : "expert",
     () => follow(),
   );
-  const force = tick("Force feedback", true, "Off: the needle is seen, not felt.");
+  const force = tick("Force feedback", true, "Off: it is seen, not felt.");
   const order = tick("Put several in order", false, "Off: two surfaces are compared.");
   const fingers = tick("Two fingers", false, "On: side by side, each on a device of its own.");
   const film = tick(
@@ -220,7 +220,11 @@ function form(tasks, trainees, me, chosenTrainee) {
       "div",
       { class: "row go" },
       go,
-      h("span", { class: "muted" }, "You watch and control it on the next page."),
+      h(
+        "span",
+        { class: "muted" },
+        "A window opens at the station for who trains; you watch and control it on the next page.",
+      ),
     ),
   );
 }

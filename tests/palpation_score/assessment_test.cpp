@@ -106,7 +106,7 @@ TEST(PalpationAdvice, TellsWhyALumpWasMissed) {
   const PalpationAssessment light = assessed(two, {}, right(0.5));
   ASSERT_GE(light.advice.size(), 2u);
   EXPECT_EQ(
-      light.advice[0].find("One lump (16 mm, far left) was missed: its place was never felt."), 0u)
+      light.advice[0].find("One lump (16 mm, far left) was missed: its middle was never felt."), 0u)
       << light.advice[0];
   EXPECT_EQ(light.advice[1].find(
                 "One lump (12 mm, far right) was missed: its place was felt, but only lightly."),

@@ -67,6 +67,14 @@ TEST(Page, TellsEachPenaltyWithItsReason) {
   EXPECT_LT(page.find("Lung touched</strong>"), page.find("Time</strong>"));
 }
 
+TEST(Page, TheLargestPenaltyIsToldOnce) {
+  SessionReport report = syntheticReport(1);
+  report.trials[0].assessment.summary = "Vein reached. Largest penalty: lung (3500 points).";
+  const std::string page = written(report, "once");
+  EXPECT_TRUE(contains(page, "<p>Then: Time (315.2).</p>"));
+  EXPECT_FALSE(contains(page, "Most points: "));
+}
+
 TEST(Page, TellsWhereTheTaskStands) {
   SessionReport report = syntheticReport(1);
   const std::string page = written(report, "stands");

@@ -372,7 +372,7 @@ std::vector<Kind> patientKinds() {
        .stricter = {"/tasks/[^/]*/figures.*"},
        .forgiving = {},
        .elsewhere = {},
-       .free = {"/tasks"}},
+       .free = {"/tasks/[^/]*"}},
       {.name = "interactive_procedures",
        .samples = {{"interactions/procedures.json", json::object()}},
        .read = [](const fs::path& file) { calibration::readProcedures(file); },

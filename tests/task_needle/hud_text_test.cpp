@@ -17,6 +17,24 @@ scene::Hud shown(SafetyCause cause, const std::string& device = "") {
   return hudText(status, tool, "", "");
 }
 
+// Who has drawn blood has ten seconds: whatever else happens then, the question is on the screen.
+TEST(HudText, TheQuestionIsHiddenByNothingButAnEmergencyStop) {
+  TaskStatus status;
+  status.state = trial::TrialState::running;
+  status.trial = status.trials = 1;
+  status.asked = true;
+  status.answer_within_s = 6.3;
+  status.notice = "Force was off for a moment";
+  runtime::ToolState tool;
+  tool.tissue = Tissue::lung;
+  const scene::Hud hud = hudText(status, tool, "The camera is gone", "");
+  EXPECT_EQ(hud.notice, "What did you draw? 1: vein, 2: artery, 3: neither (7 s left)");
+  EXPECT_FALSE(hud.alarm);
+  status.emergency_stop = true;
+  status.notice = "EMERGENCY STOP";
+  EXPECT_EQ(hudText(status, tool, "", "").notice, "EMERGENCY STOP");
+}
+
 TEST(HudText, SaysWhyTheForceIsGone) {
   for (int i = 0; i < haptics::kSafetyCauseCount; ++i) {
     const auto cause = static_cast<SafetyCause>(i);

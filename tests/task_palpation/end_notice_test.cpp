@@ -14,6 +14,8 @@ TEST(EndNotice, AnAssessmentTellsNoResult) {
   EXPECT_EQ(endNotice(Role::scored, Outcome::done, result), result);
   EXPECT_EQ(endNotice(Role::scored, Outcome::success, result), result);
   EXPECT_EQ(endNotice(Role::scored, Outcome::time, result), "Trial ended: time");
+  EXPECT_EQ(endNotice(Role::scored, Outcome::mistaken, result, "It was not said what was drawn"),
+            "Trial ended. It was not said what was drawn");
   EXPECT_EQ(endNotice(Role::guided, Outcome::aborted, result), "Trial ended: aborted");
   const std::string silent = endNotice(Role::assessed, Outcome::done, result);
   for (const Outcome outcome :

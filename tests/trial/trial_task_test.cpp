@@ -184,11 +184,20 @@ TEST_F(Rehearsing, HowTheToolIsMovedIsSaidWhileNothingElseIs) {
 TEST_F(Rehearsing, WhatATrialIsForIsSaidUntilItBegins) {
   task.isFor("Find the lump.");
   run(210);
-  EXPECT_EQ(task.saysFirst(), "Find the lump.");
+  EXPECT_EQ(task.notice(), "Find the lump. Enter starts, ? shows keys");
+  EXPECT_EQ(task.saysFirst(), "") << "once is enough";
   channels.requests_to_task.push({UserCommand::start, ""});
   step();
   step();
   EXPECT_EQ(task.saysFirst(), "");
+}
+
+TEST_F(Rehearsing, BesideAWarningWhatATrialIsForIsSaidToo) {
+  task.isFor("Find the lump.");
+  task.warn("This device keeps its last force");
+  run(210);
+  EXPECT_EQ(task.notice(), "This device keeps its last force. Enter starts, ? shows keys");
+  EXPECT_EQ(task.saysFirst(), "Find the lump.");
 }
 
 TEST_F(Rehearsing, WhoGoesAwayHoldsTheStationUpForAMinute) {

@@ -128,8 +128,8 @@ int levelAt(const AdviceSource& source, const Vec3& p_P) {
 const char* missedReason(int level, bool one) {
   switch (level) {
     case 0:
-      return one ? "its place was never felt. Cover the whole area before you finish."
-                 : "their places were never felt. Cover the whole area before you finish.";
+      return one ? "its middle was never felt. Cover the whole area before you finish."
+                 : "their middles were never felt. Cover the whole area before you finish.";
     case 1:
       return one ? "its place was felt, but only lightly. Feel every place with light, medium and "
                    "deep pressure."

@@ -26,8 +26,9 @@ std::string shortOutcome(const assess::TrialAssessment& assessment);  ///< for t
 Tone toneOfOutcome(const assess::TrialAssessment& assessment);
 
 /// "Most points: Lung touched (500.0), Time (315.2) and ...": the largest two or three; the third
-/// only when it is at least a tenth of the total. "" when nothing was charged.
-std::string largestReasons(const assess::TrialAssessment& assessment);
+/// only when it is at least a tenth of the total. "" when nothing was charged. Where the summary
+/// has told the first: "Then: Time (315.2).", or nothing.
+std::string largestReasons(const assess::TrialAssessment& assessment, bool first_told = false);
 
 /// Outcome, summary, reasons, total; then the plain figures of the trial.
 void writeVerdict(Html& html, const assess::TrialAssessment& assessment);

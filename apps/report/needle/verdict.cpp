@@ -96,17 +96,20 @@ Tone toneOfOutcome(const assess::TrialAssessment& trial) {
              : Tone::neutral;
 }
 
-std::string largestReasons(const assess::TrialAssessment& assessment) {
+std::string largestReasons(const assess::TrialAssessment& assessment, bool first_told) {
   std::vector<std::string> reasons;
   for (const auto& penalty : byPoints(assessment.penalties)) {
     const bool small = reasons.size() == 2 && penalty.points < 0.1 * assessment.total;
     if (!(penalty.points > 0) || small || reasons.size() == 3) break;
     reasons.push_back(penalty.title + " (" + fixed(penalty.points, 1) + ")");
   }
+  if (first_told && !reasons.empty()) reasons.erase(reasons.begin());
   std::string text;
-  for (std::size_t i = 0; i < reasons.size(); ++i) {
-    text += (i == 0 ? "Most points: " : i + 1 < reasons.size() ? ", " : " and ") + reasons[i];
-  }
+  for (std::size_t i = 0; i < reasons.size(); ++i)
+    text += (i > 0        ? i + 1 < reasons.size() ? ", " : " and "
+             : first_told ? "Then: "
+                          : "Most points: ") +
+            reasons[i];
   return text.empty() ? "" : text + ".";
 }
 
@@ -123,7 +126,9 @@ void writeVerdict(Html& html, const assess::TrialAssessment& trial) {
         if (trial.simulated) html.element("span", {{"class", "badge"}}, "simulated");
       }
       html.element("p", trial.summary);
-      if (trial.outcome != Outcome::voided) html.element("p", largestReasons(trial));
+      const bool told = trial.summary.find("Largest penalty: ") != std::string::npos;
+      const std::string reasons = largestReasons(trial, told);
+      if (trial.outcome != Outcome::voided && !reasons.empty()) html.element("p", reasons);
     }
     if (trial.by_path) writeTotal(html, trial);
   }

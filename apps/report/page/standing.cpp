@@ -132,8 +132,7 @@ void writeKey(Html& html, const std::vector<progress::Group>& groups) {
     html.text(words);
   };
   say("here", "this session's trials");
-  for (std::size_t i = 0; i < groups.size(); ++i)
-    say(i == 0 ? "first" : "other", keyOf(groups[i]));
+  for (std::size_t i = 0; i < groups.size(); ++i) say(i == 0 ? "first" : "other", keyOf(groups[i]));
 }
 
 }  // namespace

@@ -223,6 +223,7 @@ svg .wall{stroke:var(--ink);stroke-width:2}
 .swatch.here{width:.3rem;height:.9rem;margin:0 .9rem 0 .4rem;background:var(--ink);vertical-align:-.1rem}
 @media (max-width:899px){
   main,header,footer{padding-left:12px;padding-right:12px}
+  .answers{display:block;overflow-x:auto}
   .card{padding:20px 16px}
 }
 @media (max-width:719px){

@@ -248,8 +248,8 @@ void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials,
               std::to_string(sums.passed) + " of " + numberOf(sums.trials, "trial", "trials"), ""},
              judgementFact(judgement, standard)});
   std::string note =
-      "The intervals take all lumps, and all quarters, as independent of each other: read them as "
-      "a lower bound of the doubt.";
+      "The intervals take all lumps, and all quarters, as independent of each other: the doubt is "
+      "larger than they say.";
   if (sums.left_out > 0)
     note = numberOf(sums.left_out, "trial is", "trials are") +
            " not counted here: void, not finished, or not scored. " + note;
@@ -262,7 +262,7 @@ void writePalpationGlossary(Html& html) {
        "Of the lumps that were there, the share that was found. Every lump missed lowers it."},
       {"Specificity",
        "Of the quarters of the area without a lump near them, the share in which none was marked. "
-       "False alarms lower it."},
+       "A false alarm in one of them lowers it; one in a quarter that has a lump does not."},
       {"Coverage",
        "The share of the area that was felt, at each pressure or a deeper one. Where nothing was "
        "felt, nothing can be found."},
