@@ -75,6 +75,9 @@ nlohmann::json Jobs::ask(JobRequest request) {
     const std::lock_guard lock(mutex_);
     const auto found = asked_.find(key);
     id = found != asked_.end() ? found->second : asked_[key] = addLocked(std::move(request));
+    // Somebody looks at its page now: it goes before what was asked for and left.
+    if (const auto at = std::find(queue_.begin(), queue_.end(), id); at != queue_.end())
+      std::rotate(queue_.begin(), at, at + 1);
   }
   nlohmann::json told = one(id);
   const bool page_gone = told["state"] == "done" && !pageless && told["page"] == "";

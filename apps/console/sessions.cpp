@@ -199,7 +199,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   for (const std::string& more :
        {std::string("--live"), socketOf(id), std::string("--out"), folder.string()})
     arguments.push_back(more);
-  json facts{{"task", wish.task},           {"title", wish.title},
+  json facts{{"performer", wish.performer}, {"task", wish.task},           {"title", wish.title},
              {"trainee", wish.trainee},     {"started_utc", utcNow()},
              {"assessed", wish.assess},     {"filmed", wish.film},
              {"simulated", wish.simulated}, {"study", !wish.protocol.empty()},
@@ -246,7 +246,7 @@ json Sessions::described(const std::string& id, const fs::path& folder) {
            {"started_utc", textOf(facts, "started_utc")},
            {"state", state},
            {"message", messageOf(state, folder)}};
-  for (const char* field : {"assessed", "filmed", "simulated", "trials", "study", "blind"})
+  for (const char* field : {"assessed", "filmed", "performer", "simulated", "trials", "study", "blind"})
     one[field] = facts.value(field, json());
   return one;
 }

@@ -86,3 +86,8 @@ export function sessionOutcome(s) {
     `${o.succeeded} of ${o.counting} succeeded`,
   ];
 }
+
+/** Who held the tool: a person, or who was simulated. */
+export const performer = (s) =>
+  ({ expert: "simulated expert", novice: "simulated novice" })[s.performer] ||
+  (s.simulated && !s.trainee ? "simulated" : "a person");

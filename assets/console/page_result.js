@@ -1,19 +1,7 @@
 // One session that is over: verdict, trials, pictures, report; ways to replay and print.
 import { get, post, url } from "./api.js";
 import { h, put } from "./dom.js";
-import {
-  capital,
-  clock,
-  figure,
-  isOn,
-  moment,
-  outcome,
-  pictureName,
-  plural,
-  sessionState,
-  taskName,
-  who,
-} from "./format.js";
+import { capital, clock, figure, isOn, moment, outcome, performer, pictureName, plural, sessionState, taskName, who } from "./format.js";
 import { badge, button, facts, notice, progress, simulatedBadge, table } from "./parts.js";
 import { isRated, ratingForm } from "./rating_form.js";
 import { reportFrame } from "./report_frame.js";
@@ -171,6 +159,7 @@ export async function show({ root, life, params: [id], open }) {
             ? h("a", { href: `#/trainees/${encodeURIComponent(session.trainee)}` }, session.trainee)
             : who(""),
         ],
+        ["Performed by", performer(session)],
         ["Kind", session.assessed ? "assessed" : "practice"],
         ["State", badge(...sessionState(session.state))],
         ["Data", session.simulated ? simulatedBadge() : "of a person"],

@@ -1,6 +1,6 @@
 // A trial to look at again: fetched, and waited for while its pictures are drawn.
 import { get, list, url } from "./api.js";
-import { isOn, moment, taskName, who } from "./format.js";
+import { isOn, moment, performer, taskName, who } from "./format.js";
 import { momentsIn } from "./moments.js";
 
 const known = (x) => (Number.isFinite(x) ? x : NaN);
@@ -83,8 +83,8 @@ export async function trialsBeside(session, trial) {
       if (s.id === session && n === trial) continue;
       options.push([
         `${s.id}/${n}`,
-        `${taskName(s)}, ${moment(s.started_utc)}, ${who(s.trainee)}, trial ${n}` +
-          (s.simulated ? ", simulated" : "") +
+        `${taskName(s)}, ${moment(s.started_utc)}, ` +
+          `${s.trainee ? who(s.trainee) : performer(s)}, trial ${n}` +
           (s === best ? ": own best so far" : ""),
       ]);
     }

@@ -105,6 +105,15 @@ TEST(Jobs, TheSameWorkIsDoneOnceAtATime) {
   EXPECT_NE(w.jobs->add(waiting("a")), first);
 }
 
+TEST(Jobs, WhatSomebodyLooksAtGoesBeforeWhatWasLeft) {
+  const Workshop w("jobs-order");
+  const std::string running = w.jobs->add(waiting("a"));
+  EXPECT_EQ(w.jobs->ask(waiting("left"))["state"], "working");
+  const std::string looked_at = w.jobs->ask(report("looked at"))["id"];
+  w.jobs->stop(running);
+  EXPECT_EQ(w.settled(looked_at), "done") << "although the other, which never ends, came first";
+}
+
 TEST(Jobs, WhatWaitsCanBeStopped) {
   const Workshop w("jobs-stop");
   const std::string running = w.jobs->add(waiting("a")), queued = w.jobs->add(report("b"));
