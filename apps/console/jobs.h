@@ -41,9 +41,9 @@ class Jobs {
 
   /// The id of the job: the one with this key that waits or runs, else a new one.
   std::string add(JobRequest request);
-  /// What becomes of a piece of work that is begun when it is asked for first, as one() tells it; of
-  /// those that wait, the one that was asked for last is done next. A
-  /// failure is told once: whoever asks again begins it anew.
+  /// What becomes of a piece of work that is begun when it is asked for first, as one() tells it;
+  /// of those that wait, the one that was asked for last is done next. A failure is told once:
+  /// whoever asks again begins it anew.
   nlohmann::json ask(JobRequest request);
   /// {"state": "working|done|failed", "title", "done", "lines", "page", "message"}; throws
   /// UsageError for an unknown one.

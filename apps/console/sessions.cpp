@@ -199,11 +199,17 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   for (const std::string& more :
        {std::string("--live"), socketOf(id), std::string("--out"), folder.string()})
     arguments.push_back(more);
-  json facts{{"performer", wish.performer}, {"task", wish.task},           {"title", wish.title},
-             {"trainee", wish.trainee},     {"started_utc", utcNow()},
-             {"assessed", wish.assess},     {"filmed", wish.film},
-             {"simulated", wish.simulated}, {"study", !wish.protocol.empty()},
-             {"blind", wish.blind},         {"trials", wish.trials}};
+  json facts{{"performer", wish.performer},
+             {"task", wish.task},
+             {"title", wish.title},
+             {"trainee", wish.trainee},
+             {"started_utc", utcNow()},
+             {"assessed", wish.assess},
+             {"filmed", wish.film},
+             {"simulated", wish.simulated},
+             {"study", !wish.protocol.empty()},
+             {"blind", wish.blind},
+             {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
   const os::ProcessId process = starter_.start(arguments, folder / kLog);
   facts["pid"] = process.pid;
@@ -246,7 +252,8 @@ json Sessions::described(const std::string& id, const fs::path& folder) {
            {"started_utc", textOf(facts, "started_utc")},
            {"state", state},
            {"message", messageOf(state, folder)}};
-  for (const char* field : {"assessed", "filmed", "performer", "simulated", "trials", "study", "blind"})
+  for (const char* field :
+       {"assessed", "filmed", "performer", "simulated", "trials", "study", "blind"})
     one[field] = facts.value(field, json());
   return one;
 }

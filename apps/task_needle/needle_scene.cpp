@@ -65,7 +65,7 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
                    const presentation::Presentation& shown) {
   scene::Hud hud;
   const bool active = status.active();
-  hud.phase = trial::numberAndAim(status, "Trial") + (active && shown.guidance ? status.step : "");
+  hud.phase = trial::numberOf(status, "Trial") + (active && shown.guidance ? status.step : "");
   if (active) {
     hud.depth = depthText(tool, words);
     hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +

@@ -36,7 +36,7 @@ void SearchScene::compose(scene::SceneState& state, const runtime::ToolState& to
 
 scene::Hud SearchScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
   scene::Hud hud;
-  hud.phase = trial::numberAndAim(status_, "Episode");
+  hud.phase = trial::numberOf(status_, "Episode");
   if (status_.active()) {
     hud.phase += status_.held ? "The handle is held: it is let go in a moment"
                               : "Find the rough one; stay in its middle";

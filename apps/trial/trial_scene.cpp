@@ -116,18 +116,18 @@ std::string whyText(haptics::SafetyCause cause) {
   }
 }
 
-std::string numberAndAim(const TrialStatus& status, const char* called) {
+std::string numberOf(const TrialStatus& status, const char* called) {
   std::string words;
   if (status.trials > 1 && status.trial > 0) {
     words = called;
     words += ' ' + std::to_string(status.trial) + " of " + std::to_string(status.trials) + "  ";
   }
-  return words + status.aim;
+  return words;
 }
 
 void tellTrial(const TrialStatus& status, const std::string& task, const std::string& force,
                scene::Hud* hud) {
-  hud->phase = numberAndAim(status, "Trial");
+  hud->phase = numberOf(status, "Trial");
   if (!status.active()) return;
   hud->phase += task;
   hud->force = force + (status.force_feedback ? "" : " (force feedback off)");

@@ -148,9 +148,8 @@ std::string forceText(haptics::SafetyCause cause);
 haptics::SafetyCause worse(haptics::SafetyCause first, haptics::SafetyCause second);
 /// Why force was taken away, as part of a sentence: "the device was silent".
 std::string whyText(haptics::SafetyCause cause);
-/// Which trial it is, in front of what is to be done in it; before it begins, what it is for.
-/// `called`: "Trial".
-std::string numberAndAim(const TrialStatus& status, const char* called);
+/// Which trial it is, in front of what is to be done in it: "Trial 1 of 2  ". `called`: "Trial".
+std::string numberOf(const TrialStatus& status, const char* called);
 /// What every task shows of a trial: which it is, what is to be done, force (in words) and time.
 void tellTrial(const TrialStatus& status, const std::string& task, const std::string& force,
                scene::Hud* hud);

@@ -24,9 +24,8 @@ struct TrialStatus {
   std::string device;  ///< what the device's driver has to say; empty: nothing
   /// the last one, for some seconds: many last a tick only
   haptics::SafetyCause trip = haptics::SafetyCause::none;
-  std::string notice;  ///< one line for the person
+  std::string notice;  ///< for the person: one line, or what a trial is for above it
   bool alarm = false;
-  std::string aim;     ///< before a trial: what it is for; empty: nobody is there to read it
   std::string can_do;  ///< what a person can do now; empty: nobody is there to read it
   bool active() const { return state == TrialState::running || state == TrialState::paused; }
 };

@@ -334,15 +334,8 @@ std::string TrialTask::canDo() const {
   return moved_.empty() ? "P pauses, ? shows keys" : moved_ + ". ? shows keys";
 }
 
-std::string TrialTask::aim() const {
-  const bool before = status_.state == TrialState::checking || status_.state == TrialState::waiting;
-  const bool said = !aim_.empty() && status_.notice.starts_with(aim_);
-  return before && !lead_.automatic && !said ? aim_ : "";
-}
-
 void TrialTask::publish(std::int64_t now_ns) {
   status_.can_do = canDo();
-  status_.aim = aim();
   haptics::TickCommands commands;
   commands.trial = static_cast<std::uint32_t>(status_.trial);
   commands.armed = status_.state == TrialState::running;

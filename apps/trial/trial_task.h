@@ -106,7 +106,6 @@ class TrialTask : public runtime::Activity {
   void startTrial(std::int64_t now_ns);
   void publish(std::int64_t now_ns);
   std::string canDo() const;
-  std::string aim() const;
   void escape(std::int64_t now_ns);
   void comeToAnEnd(std::int64_t now_ns);
 

@@ -1,7 +1,20 @@
 // One session that is over: verdict, trials, pictures, report; ways to replay and print.
 import { get, post, url } from "./api.js";
 import { h, put } from "./dom.js";
-import { capital, clock, figure, isOn, moment, outcome, performer, pictureName, plural, sessionState, taskName, who } from "./format.js";
+import {
+  capital,
+  clock,
+  figure,
+  isOn,
+  moment,
+  outcome,
+  performer,
+  pictureName,
+  plural,
+  sessionState,
+  taskName,
+  who,
+} from "./format.js";
 import { badge, button, facts, notice, progress, simulatedBadge, table } from "./parts.js";
 import { isRated, ratingForm } from "./rating_form.js";
 import { reportFrame } from "./report_frame.js";

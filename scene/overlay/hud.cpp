@@ -3,6 +3,9 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "scene/actors/force_arrows.h"
 #include "scene/actors/surface_map.h"
@@ -39,17 +42,6 @@ std::pair<Rgb, double> lookOf(TickTone tone) {
 }
 
 Rgba opaque(const Rgb& c) { return {c[0], c[1], c[2], 1}; }
-
-/// Breaks a line at the space nearest its middle; unchanged when there is none.
-std::pair<std::string, std::string> halves(const std::string& text) {
-  const std::size_t middle = text.size() / 2;
-  const std::size_t before = text.rfind(' ', middle), after = text.find(' ', middle);
-  if (before == std::string::npos && after == std::string::npos) return {text, ""};
-  const bool first = after == std::string::npos ||
-                     (before != std::string::npos && middle - before <= after - middle);
-  const std::size_t at = first ? before : after;
-  return {text.substr(0, at), text.substr(at + 1)};
-}
 
 }  // namespace
 
@@ -119,20 +111,6 @@ void HudPainter::build() {
   for (std::size_t i = used_; i < labels_.size(); ++i) labels_[i]->hide();
 }
 
-void HudPainter::write(const std::string& text, const TextStyle& style, int x, int y, Align align) {
-  if (used_ == labels_.size()) labels_.push_back(std::make_unique<Label>(renderer_));
-  labels_[used_++]->set(text, style, x, y, align);
-}
-
-TextStyle HudPainter::style(double scale, bool bold, const Rgb& colour) const {
-  return {std::max(static_cast<int>(scale * text_ + 0.5), kSmallestText_px), bold, colour};
-}
-
-TextStyle HudPainter::fitted(const std::string& text, TextStyle wish, int width) const {
-  while (wish.size_px > kSmallestText_px && textWidth(text, wish) > width) --wish.size_px;
-  return wish;
-}
-
 void HudPainter::buildMark() {
   const std::string& text = content_->text.mark;
   if (text.empty()) return;
@@ -154,20 +132,16 @@ void HudPainter::buildPhase() {
   const std::string& text = content_->text.phase;
   if (text.empty()) return;
   const int pad = text_ * 2 / 3, room = panel_.width - 2 * (margin_ + pad);
-  const TextStyle wish = style(1.15, true, colour::kText), one_line = fitted(text, wish, room);
-  const auto [first, second] =
-      textWidth(text, one_line) > room ? halves(text) : std::pair(text, std::string());
-  const TextStyle look =
-      second.empty() ? one_line : fitted(second, fitted(first, wish, room), room);
-  const int line = lineHeight(look), height = (second.empty() ? 1 : 2) * line + pad;
-  const int width = std::max(textWidth(first, look), textWidth(second, look)) + 2 * pad;
+  const TextStyle wish = style(1.15, true, colour::kText);
+  const Lines lines = fittedLines(text, wish, fitted(text, wish, room), room);
+  const int width = lines.width + 2 * pad, height = lines.height + pad;
   const Rect frame{startOf(width, upper_right_), below_ - height, width, height};
   below_ = frame.y - margin_ / 2;
   if (!put(Plate::phase, frame)) return;
   plates_.add(frame, colour::kPlate, pad / 2);
-  const int top = second.empty() ? frame.y + height / 2 : frame.top() - pad / 2 - line / 2;
-  write(first, look, frame.x + pad, top, Align::left);
-  if (!second.empty()) write(second, look, frame.x + pad, top - line, Align::left);
+  const bool one = lines.texts.size() == 1;
+  const int top = one ? frame.y + height / 2 + lines.height / 2 : frame.top() - pad / 2;
+  write(lines, frame.x + pad, top, Align::left);
 }
 
 std::vector<HudPainter::Row> HudPainter::readings() const {
@@ -311,21 +285,16 @@ void HudPainter::buildNotice() {
   const Rect& panel = content_->panel;
   const TextStyle wish = style(calm ? 1 : 1.45, alarm, colour::kText);
   const int pad = text_, room = panel.width - 2 * (margin_ + pad);
-  const auto [first, second] =
-      textWidth(text, wish) > room ? halves(text) : std::pair(text, std::string());
-  const TextStyle look = fitted(second, fitted(first, wish, room), room);
-  const int line = lineHeight(look), lines = second.empty() ? 1 : 2;
-  const int width = std::max(textWidth(first, look), textWidth(second, look)) + 2 * pad;
+  const Lines lines = fittedLines(text, wish, wish, room);
+  const int width = lines.width + 2 * pad;
   const int left = panel.x + (panel.width - width) / 2;
   const bool beside =
       lower_right_ ? left + width + margin_ < readings_.x : left > readings_.right() + margin_;
-  const int height = lines * line + pad, down = beside ? readings_.y : above_, up = below_ - height;
+  const int height = lines.height + pad, down = beside ? readings_.y : above_, up = below_ - height;
   const Rect frame{left, notice_up_ ? up : down, width, height};
   notice_elsewhere_ = {left, notice_up_ ? down : up, width, height};
   if (!put(Plate::notice, frame)) return;
-  const int x = frame.x + width / 2, top = frame.top() - pad / 2 - line / 2;
-  write(first, look, x, top, Align::centre);
-  if (lines == 2) write(second, look, x, top - line, Align::centre);
+  write(lines, frame.x + width / 2, frame.top() - pad / 2, Align::centre);
   if (calm) return plates_.add(frame, colour::kPlate, text_ / 2);
   const Rgba edge = alarm ? opaque(colour::kText) : opaque(colour::kAdvice);
   const int rim = std::max(1, text_ / 8);

@@ -48,6 +48,11 @@ class HudPainter {
     Rect frame;
   };
   struct Content;
+  struct Lines {
+    std::vector<std::string> texts;
+    TextStyle look;
+    int width = 0, height = 0;  ///< px, of all
+  };
   struct Row {
     std::string name, value;
   };
@@ -71,6 +76,9 @@ class HudPainter {
   void write(const std::string& text, const TextStyle& style, int x, int y, Align align);
   TextStyle style(double scale, bool bold, const Rgb& colour) const;
   TextStyle fitted(const std::string& text, TextStyle wish, int width) const;
+  Lines fittedLines(const std::string& text, const TextStyle& wish, const TextStyle& alone,
+                    int room) const;
+  void write(const Lines& lines, int x, int top, Align align);
 
   Plates plates_;
   vtkRenderer& renderer_;
