@@ -1,10 +1,14 @@
 #include "apps/evidence/expert_ranges.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/file_schema.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
+#include "anatomy/base/nearest_word.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/assess/metrics/metric_table.h"
 #include "apps/evidence/evidence_records.h"
@@ -64,6 +68,13 @@ namespace {
 constexpr int kMostTrials = 1'000'000;
 constexpr double kMostOfAny = 1e9;  // whatever the unit is
 
+std::vector<std::string> figureNames() {
+  std::vector<std::string> names;
+  for (const metrics::MetricDefinition& metric : metrics::metricTable())
+    names.emplace_back(metric.name);
+  return names;
+}
+
 progress::Group groupOf(const JsonFile& file, const std::string& at) {
   progress::Group group{
       .name = file.text(at + "name"),
@@ -73,15 +84,15 @@ progress::Group groupOf(const JsonFile& file, const std::string& at) {
       .trials = static_cast<std::size_t>(file.integer(at + "trials", 1, kMostTrials)),
       .figures = {}};
   const nlohmann::json figures = file.json().at(nlohmann::json::json_pointer("/" + at + "figures"));
-  for (const auto& [metric, reach] : figures.items()) {
+  for (const auto& [metric, unread] : figures.items()) {
     const std::string one = at + "figures/" + metric;
-    if (!metrics::metricNamed(metric)) file.refuse(one, "is no figure of a trial");
-    group.figures.push_back({metric, file.number(one + "/low", -kMostOfAny, kMostOfAny),
-                             file.number(one + "/middle", -kMostOfAny, kMostOfAny),
-                             file.number(one + "/high", -kMostOfAny, kMostOfAny)});
-    const progress::Reach& read = group.figures.back();
-    if (read.low > read.middle || read.middle > read.high)
-      file.refuse(one, "is not in order: low, middle, high");
+    if (!metrics::metricNamed(metric))
+      file.refuse(one, "is no figure of a trial" + didYouMean(metric, figureNames()));
+    const std::vector<double> low_to_high = file.numbers(one);
+    if (low_to_high.size() != 3 || !std::is_sorted(low_to_high.begin(), low_to_high.end()) ||
+        low_to_high.front() < -kMostOfAny || low_to_high.back() > kMostOfAny)
+      file.refuse(one, "is not three figures in their order: low, middle, high");
+    group.figures.push_back({metric, low_to_high[0], low_to_high[1], low_to_high[2]});
   }
   return group;
 }
@@ -90,8 +101,8 @@ progress::Group groupOf(const JsonFile& file, const std::string& at) {
 
 std::map<std::string, progress::Group> readExpertRanges(const std::filesystem::path& file) {
   const JsonFile json(file);
+  needKind(json, "expert_ranges", 1);
   if (json.text("format") != kFormat) json.refuse("format", std::string("is not ") + kFormat);
-  json.needVersion(1);
   json.text("made_by");
   std::map<std::string, progress::Group> of_task;
   if (!json.has("tasks") || !json.json()["tasks"].is_object()) json.refuse("tasks", "is no object");

@@ -88,7 +88,7 @@ TEST(BesideOthers, OnlyWhoDidTheSameInTheSameWay) {
   const json others = beside(records, breast, kOthers);
   ASSERT_FALSE(others.is_null());
   EXPECT_EQ(others.at("people"), 8) << "without who asks";
-  EXPECT_EQ(others.at("figures").at("time_s").at("middle"), 55);  // of 20 to 90 s
+  EXPECT_EQ(others.at("figures").at("time_s").at(1), 55);  // of 20 to 90 s
   EXPECT_TRUE(beside(records, neck, kOthers).is_null()) << "another part of the body";
   EXPECT_TRUE(beside(records, breast, kOthers, [](SessionOptions& o) {
                 o.force_feedback = false;

@@ -73,8 +73,7 @@ std::optional<Group> othersIn(const Series& series, const std::string& left_out)
 
 nlohmann::json jsonOf(const Group& group) {
   nlohmann::json figures = nlohmann::json::object();
-  for (const Reach& one : group.figures)
-    figures[one.metric] = {{"low", one.low}, {"middle", one.middle}, {"high", one.high}};
+  for (const Reach& one : group.figures) figures[one.metric] = {one.low, one.middle, one.high};
   return {{"name", group.name},     {"what", group.what},     {"simulated", group.simulated},
           {"people", group.people}, {"trials", group.trials}, {"figures", figures}};
 }
@@ -87,7 +86,7 @@ Group groupIn(const nlohmann::json& json) {
               .trials = json.at("trials"),
               .figures = {}};
   for (const auto& [metric, reach] : json.at("figures").items())
-    group.figures.push_back({metric, reach.at("low"), reach.at("middle"), reach.at("high")});
+    group.figures.push_back({metric, reach.at(0), reach.at(1), reach.at(2)});
   return group;
 }
 
