@@ -67,6 +67,7 @@ struct RoomFilm::Asked {
         continue;
       }
       changed.wait(lock, [this] { return ending || waiting.size() < kWaiting; });
+      if (ending) break;
       waiting.push_back(std::move(*frame));
     }
     camera.reset();
