@@ -19,6 +19,12 @@ class UsageError : public Error {
   using Error::Error;
 };
 
+/// What went wrong, without what stands below its first line.
+inline std::string firstLine(const std::exception& e) {
+  const std::string what = e.what();
+  return what.substr(0, what.find('\n'));
+}
+
 /// What `read` gives. Its UsageErrors become Errors: what is wrong in a file that the program
 /// wrote, or that comes with it, is no mistake in how it was called.
 template <typename Read>

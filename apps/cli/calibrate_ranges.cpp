@@ -15,8 +15,8 @@ namespace {
 constexpr const char* kRangeExamples = R"(Examples:
   palpa calibrate ranges --from out/expert-a/session.palpa out/expert-b/session.palpa
       what these experts reached, beside which a learner's report shows the learner
-A task that is shipped finds its experts in assets/tasks/expert_ranges.json; assets/tasks/expert_ranges.sh
-makes that file again, of simulated experts.)";
+A task that is shipped finds its experts in assets/tasks/expert_ranges.json;
+assets/tasks/expert_ranges.sh makes that file again, of simulated experts.)";
 
 struct RangeOptions {
   std::vector<std::string> from;

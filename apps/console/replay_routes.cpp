@@ -23,14 +23,8 @@ constexpr char kSize[] = "960x540";
 
 double rounded(double value) { return std::isfinite(value) ? std::round(value * 1e3) / 1e3 : 0; }
 
-/// Of one trial, in its own time: as it was judged, pauses left out.
-json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& trial,
-              const training::TrialTimes& times) {
-  live::ForceCurve curve;
-  reader.ticks([&](const haptics::FlightRecord& record) {
-    if (record.commands.armed && record.t_ns >= trial.header.t_ns && !trial.isOver(record.t_ns))
-      curve.add(record);
-  });
+/// In the trial's own time: as it was judged, pauses left out.
+json curvesOf(const live::ForceCurve& curve, const training::TrialTimes& times) {
   json t = json::array(), force = t, depth = t;
   for (const live::ForceCurve::Point& point : curve.points()) {
     t.push_back(rounded(times.at(std::llround(point.t_s * 1e9))));
@@ -130,8 +124,13 @@ void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
 
 json toldOf(const record::SessionReader& reader, const record::RecordedTrial& trial,
             const live::ToneOf& tone) {
-  const training::TrialTimes times = record::trialTimes(reader)[trial.header.trial];
-  json told = curvesOf(reader, trial, times);
+  const int number = trial.header.trial;
+  live::ForceCurve curve;
+  auto all = record::trialTimes(reader, [&](const haptics::FlightRecord& tick) {
+    if (tick.commands.trial == static_cast<std::uint32_t>(number)) curve.add(tick);
+  });
+  const training::TrialTimes times = all[number];
+  json told = curvesOf(curve, times);
   const double length_s = times.length_s();
   const std::vector<runtime::Event> events = reader.events();
   told["length_s"] = rounded(length_s);

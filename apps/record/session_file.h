@@ -86,8 +86,11 @@ class SessionReader {
 };
 
 /// The time of every trial, by its number, as its replay shows it: one pass over the ticks. (A
-/// search is judged from when its handle is let go.) Throws Error.
-std::map<int, training::TrialTimes> trialTimes(const SessionReader& reader);
+/// search is judged from when its handle is let go.) `visit`: is called with each of these ticks in
+/// which that time runs. Throws Error.
+std::map<int, training::TrialTimes> trialTimes(
+    const SessionReader& reader,
+    const std::function<void(const haptics::FlightRecord&)>& visit = {});
 
 /// A column of the tick table: its name ends in its unit where it has one; `meaning` says the rest.
 /// SI units throughout, so that every number is the recorded one to its last bit.

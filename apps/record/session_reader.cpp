@@ -251,15 +251,17 @@ void walkTrials(const SessionReader& reader, const std::vector<RecordedTrial>& t
   while (trial != trials.end()) finish();
 }
 
-std::map<int, training::TrialTimes> trialTimes(const SessionReader& reader) {
+std::map<int, training::TrialTimes> trialTimes(
+    const SessionReader& reader, const std::function<void(const haptics::FlightRecord&)>& visit) {
   std::map<int, training::TrialTimes> all;
   auto now = all.end();
   const auto begin = [&](const RecordedTrial& one) {
     now = all.try_emplace(one.header.trial).first;
   };
   const auto tick = [&](const haptics::FlightRecord& record) {
-    if (record.commands.trial == static_cast<std::uint32_t>(now->first))
-      now->second.add(record.t_ns, record.commands.armed);
+    if (record.commands.trial != static_cast<std::uint32_t>(now->first)) return;
+    now->second.add(record.t_ns, record.commands.armed);
+    if (visit && record.commands.armed) visit(record);
   };
   walkTrials(reader, reader.trials(), {begin, tick, [](const RecordedTrial&) {}});
   return all;

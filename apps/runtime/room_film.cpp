@@ -8,6 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "anatomy/base/error.h"
 #include "anatomy/base/left_behind.h"
 #include "apps/os/real_time.h"
 #include "apps/runtime/camera_activity.h"
@@ -20,11 +21,6 @@ constexpr std::int64_t kPicture = 125 * kMillisecond, kAskCamera = kSecond,
 constexpr auto kPatience = std::chrono::milliseconds(500);  // at the end, with what hangs
 constexpr std::size_t kWaiting = 4;                         // pictures that nobody has taken yet
 constexpr int kWidest = 640, kFilmQuality = 70;
-
-std::string firstLine(const std::exception& e) {
-  const std::string what = e.what();
-  return what.substr(0, what.find('\n'));
-}
 
 }  // namespace
 
@@ -82,7 +78,7 @@ struct RoomFilm::Asked {
   std::condition_variable changed;
   std::deque<ar::Frame> waiting;
   std::string trouble;
-  bool told = true, ending = false, over = false, has_thread = false;
+  bool told = true, ending = false, over = false;
 };
 
 RoomFilm::RoomFilm(const Open& open, bool waits, const std::filesystem::path& folder,
@@ -93,11 +89,10 @@ RoomFilm::RoomFilm(const Open& open, bool waits, const std::filesystem::path& fo
       file_(folder, "room", "offset") {
   if (!waits_) return;
   os::startThread([asked = asked_] { asked->run(); }).detach();
-  asked_->has_thread = true;
 }
 
 RoomFilm::~RoomFilm() {
-  if (!asked_->has_thread) return;
+  if (!waits_) return;
   std::unique_lock lock(asked_->mutex);
   asked_->ending = true;
   asked_->changed.notify_all();
@@ -149,7 +144,7 @@ std::string RoomFilm::trouble() const {
 
 std::string RoomFilm::news() {
   const std::lock_guard lock(asked_->mutex);
-  return std::exchange(asked_->told, true) ? "" : asked_->trouble;
+  return std::exchange(asked_->told, true) ? "" : "The room is not filmed: " + asked_->trouble;
 }
 
 }  // namespace palpa::runtime

@@ -125,13 +125,6 @@ class WindowWatch {
 
 }  // namespace
 
-std::string markFor(OperatorKind who, const station::Station& station) {
-  if (isSimulated(who)) return "SIMULATED OPERATOR";
-  if (who == OperatorKind::recorded) return "RECORDED HAND";
-  if (!station.simulated) return "";
-  return station.device.driver == station::DeviceDriver::bench ? "VIRTUAL BENCH" : "VIRTUAL CAMERA";
-}
-
 SessionFrame::SessionFrame(const SessionOptions& options, const World& world,
                            SessionDevices::Hands hands, trial::Channels& channels,
                            const std::filesystem::path& folder)
@@ -182,8 +175,7 @@ trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
   stage.camera = pictures_.camera();
   stage.X_WA = world_.X_WA;
   stage.X_WD = world_.station.X_WD;
-  stage.mark = markFor(options_.who, world_.station);
-  if (!options_.film_room.empty()) stage.mark += stage.mark.empty() ? "FILMED" : ", FILMED";
+  stage.mark = markFor(options_, world_.station);
   stage.shown = shownIn(options_);
   stage.folder = folder_;
   stage.every_source_picture = pictures_.photographs();
@@ -297,10 +289,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
       roomFilm(options_, world_.station, folder_, executive_->clock());
   if (room) {
     executive_->add(*room, {12, false, false});
-    watch.listenTo([&room] {
-      const std::string words = room->news();
-      return words.empty() ? words : "The room is not filmed: " + words;
-    });
+    watch.listenTo([&room] { return room->news(); });
   }
   igtl.addTo(*executive_);
   executive_->whenStuck(

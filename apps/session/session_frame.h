@@ -121,7 +121,4 @@ class SessionFrame {
   std::int64_t place_asked_ns_ = 0;
 };
 
-/// Words on the picture that say what is not a person on a real station.
-std::string markFor(OperatorKind who, const station::Station& station);
-
 }  // namespace palpa::session

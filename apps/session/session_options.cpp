@@ -127,6 +127,23 @@ presentation::Presentation shownIn(const SessionOptions& options) {
   return told ? practice : presentation::withoutForces(practice);
 }
 
+namespace {
+
+std::string simulationMark(OperatorKind who, const station::Station& station) {
+  if (isSimulated(who)) return "SIMULATED OPERATOR";
+  if (who == OperatorKind::recorded) return "RECORDED HAND";
+  if (!station.simulated) return "";
+  return station.device.driver == station::DeviceDriver::bench ? "VIRTUAL BENCH" : "VIRTUAL CAMERA";
+}
+
+}  // namespace
+
+std::string markFor(const SessionOptions& options, const station::Station& station) {
+  std::string mark = simulationMark(options.who, station);
+  if (!options.film_room.empty()) mark += mark.empty() ? "FILMED" : ", FILMED";
+  return mark;
+}
+
 bool mayHear(const SessionOptions& o) {
   const bool seen = o.display == scene::Display::window || o.headset;
   return o.sound && !o.fast && !o.no_views && seen;

@@ -152,6 +152,10 @@ std::filesystem::path operatorFile(const SessionOptions& options, const std::str
 /// force is felt without what replaces feeling.
 presentation::Presentation shownIn(const SessionOptions& options);
 
+/// Words on the picture that say what is not a person on a real station, and that the room is
+/// filmed.
+std::string markFor(const SessionOptions& options, const station::Station& station);
+
 /// Whether a sound may be heard in it: in real time, by whoever sees it. Asked once it is settled.
 bool mayHear(const SessionOptions& options);
 

@@ -18,23 +18,6 @@ namespace {
 constexpr char kNobody[] = "T000";
 constexpr record::Patience kBriefly{2, 300'000'000};  // a person waits
 
-}  // namespace
-
-namespace {
-
-void requireInRecords(SessionOptions& o);
-
-}  // namespace
-
-void checkTrainee(SessionOptions& o) {
-  if (!o.records.empty()) requireInRecords(o);
-  if (!o.film_room.empty() && o.who == OperatorKind::person && o.records.empty())
-    throw UsageError("is somebody's, and goes with that person's records", "--film-room",
-                     "Say who trains: --trainee, with --records");
-}
-
-namespace {
-
 void requireInRecords(SessionOptions& o) {
   o.records = evidence::absoluteRecords(o.records);
   record::PendingList::usualFolder();  // without one it is said now, not once the session is on
@@ -61,10 +44,6 @@ void requireInRecords(SessionOptions& o) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 using training::Engine;
 
 /// How this session's trials will be filed, among those of its task; none: they differ among
@@ -89,6 +68,13 @@ bool isAsShipped(const SessionOptions& o) {
 
 }  // namespace
 
+void checkTrainee(SessionOptions& o) {
+  if (!o.records.empty()) requireInRecords(o);
+  if (!o.film_room.empty() && o.who == OperatorKind::person && o.records.empty())
+    throw UsageError("is somebody's, and goes with that person's records", "--film-room",
+                     "Say who trains: --trainee, with --records");
+}
+
 void meetOthers(SessionOptions& o, bool simulated, const std::string& task_json) {
   if (!o.report) return;
   const nlohmann::json task = parseJson(task_json);
@@ -109,9 +95,7 @@ void meetOthers(SessionOptions& o, bool simulated, const std::string& task_json)
       if (series.condition == *condition && series.force_feedback == o.force_feedback)
         if (const auto others = progress::othersIn(series, o.trainee)) o.others.push_back(*others);
   } catch (const std::exception& e) {
-    const std::string what = e.what();
-    std::fprintf(stderr, "palpa: the report may show nobody beside (%s)\n",
-                 what.substr(0, what.find('\n')).c_str());
+    std::fprintf(stderr, "palpa: the report may show nobody beside (%s)\n", firstLine(e).c_str());
   }
 }
 
@@ -142,10 +126,9 @@ void deliverSession(const SessionOptions& o, const std::filesystem::path& folder
     const auto all = static_cast<std::size_t>(done.trials.added + done.trials.present);
     std::printf("In the records of %s: %s\n", done.trainee.c_str(), counted(all, "trial").c_str());
   } catch (const std::exception& e) {
-    const std::string what = e.what();
     std::fprintf(stderr,
                  "palpa: not in the records yet (%s); palpa records deliver sends it later\n",
-                 what.substr(0, what.find('\n')).c_str());
+                 firstLine(e).c_str());
   }
 }
 

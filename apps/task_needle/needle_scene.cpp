@@ -65,13 +65,10 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
                    const presentation::Presentation& shown) {
   scene::Hud hud;
   const bool active = status.active();
-  hud.phase = trial::numberOf(status, "Trial") + (active && shown.guidance ? status.step : "");
+  trial::tellTrial(status, shown.guidance ? status.step : "",
+                   format("%.1f N", unpack(tool.f_contact_D).norm()), &hud);
   if (active) {
     hud.depth = depthText(tool, words);
-    hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +
-                (status.force_feedback ? "" : " (force feedback off)");
-    const int seconds = static_cast<int>(status.elapsed_s);
-    hud.time = format("%d:%02d", seconds / 60, seconds % 60);
     hud.touched = touchedText(tool);
   }
   const bool hurts = active && shown.contact_words && injury(tool);

@@ -127,7 +127,7 @@ TEST(RoomFilm, ACameraThatFailsIsAskedAgain) {
   EXPECT_EQ(opened, 3);
   EXPECT_EQ(film.pictures(), 15u);
   EXPECT_NE(film.trouble().find("/dev/video2"), std::string::npos);
-  EXPECT_EQ(film.news(), film.trouble());
+  EXPECT_EQ(film.news(), "The room is not filmed: " + film.trouble());
   EXPECT_EQ(film.news(), "") << "once";
 }
 

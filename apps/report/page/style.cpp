@@ -220,7 +220,8 @@ svg .wall{stroke:var(--ink);stroke-width:2}
 .swatch{display:inline-block;width:1.1rem;height:.7rem;margin-right:.5rem;border-radius:2px;
   background:var(--phase)}
 .swatch.first{background:var(--blue);opacity:.45}
-.swatch.here{width:.3rem;height:.9rem;margin:0 .9rem 0 .4rem;background:var(--ink);vertical-align:-.1rem}
+.swatch.here{width:.3rem;height:.9rem;margin:0 .9rem 0 .4rem;background:var(--ink);
+  vertical-align:-.1rem}
 @media (max-width:899px){
   main,header,footer{padding-left:12px;padding-right:12px}
   .answers{display:block;overflow-x:auto}
