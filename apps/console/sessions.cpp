@@ -4,12 +4,10 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
-#include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/jobs.h"
+#include "apps/console/session_results.h"
 #include "apps/os/file_access.h"
-#include "apps/record/session_file.h"
-#include "apps/training/trial_words.h"
 
 namespace palpa::console {
 namespace {
@@ -55,66 +53,6 @@ fs::path resultsIn(const fs::path& folder) {
     began = entry->last_write_time(none);
   }
   return newest;
-}
-
-/// The sentence that ended the trial, where one did.
-std::string summaryOf(const std::vector<runtime::Event>& events,
-                      const record::RecordedTrial& trial) {
-  for (auto event = events.rbegin(); event != events.rend(); ++event)
-    if (event->trial == trial.header.trial && event->kind == trial.end.outcome) return event->text;
-  return "";
-}
-
-json trialOf(const record::RecordedTrial& trial, const std::vector<runtime::Event>& events) {
-  json one{{"number", trial.header.trial},
-           {"role", trial.header.role},
-           {"outcome", trial.ended ? trial.end.outcome : "interrupted"},
-           {"reason", trial.end.reason},
-           {"counts", training::countsAsScored(training::roleNamed(trial.header.role))},
-           {"length_s", trial.length_s()}};
-  const json scores = parsedOrDiscarded(trial.end.scores_json);
-  if (scores.is_object() && scores.contains("TOTAL")) one["total"] = scores["TOTAL"];
-  if (std::string summary = summaryOf(events, trial); !summary.empty())
-    one["summary"] = std::move(summary);
-  return one;
-}
-
-json trialsIn(const fs::path& evidence, bool blind) {
-  json all = json::array();
-  std::error_code none;
-  if (!fs::exists(evidence, none)) return all;
-  const record::SessionReader reader(evidence);
-  const std::vector<runtime::Event> events = reader.events();
-  for (const record::RecordedTrial& trial : reader.trials()) {
-    all.push_back(trialOf(trial, events));
-    if (!blind) continue;
-    for (const char* figure : {"total", "summary", "role", "length_s"}) all.back().erase(figure);
-    if (training::isVoid(trial.end.outcome) || !trial.ended) continue;
-    all.back()["outcome"] = "recorded";
-    all.back().erase("reason");
-  }
-  return all;
-}
-
-/// Of the trials that count, for a list: how many there are, how many succeeded or were done, the
-/// mean of their penalties.
-json outcomeOf(const json& trials) {
-  int counting = 0, succeeded = 0, done = 0, scored = 0;
-  double total = 0;
-  for (const json& trial : trials) {
-    const std::string outcome = trial.at("outcome");
-    if (training::isVoid(outcome) || outcome == "interrupted" || trial.at("counts") == false)
-      continue;
-    ++counting;
-    succeeded += outcome == "success";
-    done += outcome == "done";
-    if (!trial.contains("total") || !trial["total"].is_number()) continue;
-    ++scored;
-    total += trial["total"].get<double>();
-  }
-  json told{{"counting", counting}, {"succeeded", succeeded}, {"done", done}};
-  if (scored > 0) told["total"] = total / scored;
-  return told;
 }
 
 json filesIn(const fs::path& folder) {

@@ -75,7 +75,8 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
   std::string own;
   if (hurts)
     own = "The needle touches the " +
-          std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
+          std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery") +
+          (shown.guidance ? ": pull it back" : "");
   else if (status.flows == Tissue::lung)
     own = "Bubbles rise in the syringe";
   else if (status.flows != Tissue::air)

@@ -55,7 +55,14 @@ const kOutcomes = {
   void: ["none", "void, does not count"],
   "not scored": ["none", "not scored"],
 };
-export const outcome = (name) => kOutcomes[name] || ["neutral", String(name || "no outcome")];
+const outcome = (name) => kOutcomes[name] || ["neutral", String(name || "no outcome")];
+
+/** What came of a trial; of one that was held to its end, whether it reached what it is about. */
+export const trialOutcome = (r) =>
+  r.outcome === "done" && r.goal
+    ? [r.goal.reached ? "good" : "note", r.goal.word]
+    : outcome(r.outcome);
+export const hasReached = (r) => (r.goal ? r.goal.reached : r.outcome === "success");
 
 const kLiveStates = {
   checking: ["work", "Checking the station"],
@@ -83,7 +90,7 @@ export function sessionOutcome(s) {
   if (o.done > 0) return ["none", `${o.done} of ${o.counting} done`];
   return [
     o.succeeded === o.counting ? "good" : "note",
-    `${o.succeeded} of ${o.counting} succeeded`,
+    `${o.succeeded} of ${o.counting} ${o.word || "succeeded"}`,
   ];
 }
 

@@ -47,7 +47,7 @@ function figures(blind) {
     one("force", "Force"),
     one("depth", "Depth"),
     one("phase", "Phase"),
-    one("touched", "Touching"),
+    one("touched", "Structure touched"),
   );
   // What the trainee's screen says; in an assessed trial it says little, and curves and events tell
   // the educator the rest.
@@ -65,7 +65,7 @@ function figures(blind) {
       said.depth || (Number.isFinite(last.depth) ? `${figureOf(last.depth, 0)} mm` : "–"),
     );
     say(made.phase, phase || last.phase || "–");
-    say(made.touched, said.touched || "nothing");
+    say(made.touched, said.touched || "none");
   };
   return {
     node,

@@ -5,14 +5,15 @@ import {
   capital,
   clock,
   figure,
+  hasReached,
   isOn,
   moment,
-  outcome,
   performer,
   pictureName,
   plural,
   sessionState,
   taskName,
+  trialOutcome,
   who,
 } from "./format.js";
 import { badge, button, facts, notice, progress, simulatedBadge, table } from "./parts.js";
@@ -29,22 +30,23 @@ function verdict(session) {
   if (session.blind)
     return ["none", `${plural(results.length, "trial")} recorded; the study is blind.`];
   const counting = results.filter((r) => r.outcome !== "void" && r.counts !== false),
-    good = counting.filter((r) => r.outcome === "success");
+    good = counting.filter(hasReached);
   if (counting.length === 0)
     return ["none", results.length ? "No trial counts: all are void." : "No trial was held."];
   if (counting.length === 1)
     return [
-      outcome(counting[0].outcome)[0],
-      counting[0].summary || capital(outcome(counting[0].outcome)[1]),
+      trialOutcome(counting[0])[0],
+      counting[0].summary || capital(trialOutcome(counting[0])[1]),
     ];
   return [
     good.length === counting.length ? "good" : "note",
-    `${good.length} of ${counting.length} trials that count succeeded.`,
+    `Of ${counting.length} trials that count, ${good.length} ` +
+      `${counting[0].goal?.called || "succeeded"}.`,
   ];
 }
 
 function trialRow(session, r) {
-  const [tone, word] = outcome(r.outcome);
+  const [tone, word] = trialOutcome(r);
   return [
     `Trial ${r.number}`,
     r.role || "–",
@@ -55,7 +57,7 @@ function trialRow(session, r) {
         badge(tone, word),
         r.reason ? h("span", { class: "muted" }, r.reason) : null,
       ),
-      r.summary ? h("p", { class: "hint" }, r.summary) : null,
+      r.summary && r.summary !== r.reason ? h("p", { class: "hint" }, r.summary) : null,
     ],
     r.outcome === "void" ? "–" : figure(r.total),
     Number.isFinite(r.length_s) ? clock(r.length_s) : "–",

@@ -50,7 +50,8 @@ void leaveEvidence(const fs::path& file, int session, const std::string& label) 
       writer.tick(tick);
     }
     writer.endTrial({trial, t_ns, label == "augmented" ? "done" : "time", "",
-                     R"({"TOTAL":)" + std::to_string(strength) + "}"});
+                     R"({"FOUND":)" + std::to_string(label == "augmented") + R"(,"TOTAL":)" +
+                         std::to_string(strength) + "}"});
     t_ns += 3'000'000'000;
   }
   writer.close();

@@ -106,17 +106,17 @@ TEST(PalpationAdvice, TellsWhyALumpWasMissed) {
   const PalpationAssessment light = assessed(two, {}, right(0.5));
   ASSERT_GE(light.advice.size(), 2u);
   EXPECT_EQ(
-      light.advice[0].find("One lump (16 mm, far left) was missed: its middle was never felt."), 0u)
+      light.advice[0].find("One lump (16 mm, back left) was missed: its middle was never felt."), 0u)
       << light.advice[0];
   EXPECT_EQ(light.advice[1].find(
-                "One lump (12 mm, far right) was missed: its place was felt, but only lightly."),
+                "One lump (12 mm, back right) was missed: its place was felt, but only lightly."),
             0u)
       << light.advice[1];
   EXPECT_GE(adviceWith(assessed(two, {}, right(0.9)), "medium pressure, but never deeply"), 0);
   EXPECT_GE(adviceWith(assessed(two, {}, right(1.5)), "felt firmly, but passed over"), 0);
   EXPECT_EQ(
       assessed(two, {}).advice[0].find(
-          "2 lumps (12 mm, far right; 16 mm, far left) were missed: their places were felt firmly"),
+          "2 lumps (12 mm, back right; 16 mm, back left) were missed: their places were felt firmly"),
       0u);
   EXPECT_EQ(adviceWith(assessed(two, {aMark(0.02, 0.02), aMark(-0.02, 0.02)}), "missed:"), -1);
 }
@@ -128,8 +128,8 @@ TEST(PalpationAdvice, NamesFalseAlarmsThenWhatWasNotFelt) {
   const PalpationAssessment half =
       assessed({aLump(0.02, 0.02)}, {aMark(-0.02, 0.02), aMark(0, 0.001)}, far);
   const int missed = adviceWith(half, "was missed"),
-            alarms = adviceWith(half, "2 marks were no lumps (far left and in the middle)"),
-            area = adviceWith(half, "mainly near left and near right");
+            alarms = adviceWith(half, "2 marks were no lumps (back left and in the middle)"),
+            area = adviceWith(half, "mainly front left and front right");
   EXPECT_EQ(missed, 0);
   EXPECT_EQ(alarms, 1);
   EXPECT_EQ(area, 2);
@@ -177,10 +177,10 @@ TEST(MarkMeaning, AgreesWithTheScore) {
 
 TEST(PlaceWords, FarIsAwayFromTheTrainee) {
   const SearchArea area;
-  EXPECT_EQ(placeWords(area, Vec3(-0.02, 0.02, 0)), "far left");
-  EXPECT_EQ(placeWords(area, Vec3(0.02, 0.02, 0)), "far right");
-  EXPECT_EQ(placeWords(area, Vec3(-0.02, -0.02, 0)), "near left");
-  EXPECT_EQ(placeWords(area, Vec3(0.02, -0.02, 0)), "near right");
+  EXPECT_EQ(placeWords(area, Vec3(-0.02, 0.02, 0)), "back left");
+  EXPECT_EQ(placeWords(area, Vec3(0.02, 0.02, 0)), "back right");
+  EXPECT_EQ(placeWords(area, Vec3(-0.02, -0.02, 0)), "front left");
+  EXPECT_EQ(placeWords(area, Vec3(0.02, -0.02, 0)), "front right");
   EXPECT_EQ(placeWords(area, Vec3(0.008, -0.008, 0)), "in the middle");
 }
 

@@ -56,8 +56,8 @@ bool saysPage(const std::string& page, const std::string& words) {
 TEST(ComparisonPage, SaysWhatWasToldApart) {
   const std::string page = pageOf(someAnswers());
   for (const char* words :
-       {"9 of 12 answers were right", "Three of four answers are right from a difference of about",
-        "1 of 1 answers were right", "Wrong: the second one was harder, by 50 %", "2.5 N: too hard",
+       {"Answers right: 9 of 12", "Three of four answers are right from a difference of about",
+        "Answers right: 1 of 1", "Wrong: the second one was harder, by 50 %", "2.5 N: too hard",
         "Which is &lt;harder&gt;?"})
     EXPECT_TRUE(saysPage(page, words)) << words;
   EXPECT_FALSE(saysPage(page, "SIMULATED"));
@@ -107,8 +107,8 @@ TEST(ComparisonPage, OrdersStandBesideTheTrueOnes) {
   report.trials[2].outcome = training::Outcome::time;
   const std::string page = pageOf(report);
   for (const char* words :
-       {"1 of 2 orders were right; Kendall&#39;s tau was 0.83 on average",
-        "2 (x 0.5), 1 (x 1), 4 (x 1.4), 3 (x 2.8)", "1, 2, 4, 3", "0.67", "5 times",
+       {"Orders right: 1 of 2. They agreed with the true ones by 0.83 on average",
+        "2 (50 %), 1 (100 %), 4 (140 %), 3 (280 %)", "1, 2, 4, 3", "0.67", "5 times",
         "The time was over before something was said.", "M. G. Kendall"})
     EXPECT_TRUE(saysPage(page, words)) << words;
   EXPECT_FALSE(saysPage(page, "Every answer"));

@@ -51,8 +51,8 @@ bool has(const std::string& text, const std::string& part) {
 TEST(PulsePage, SaysHowManyWereFoundCountedAndTold) {
   const std::string page = pulsePage(somePulses());
   EXPECT_TRUE(has(page,
-                  "2 of 2 pulses were found; 1 of 2 counted within 3 beats a minute; 2 of 2 "
-                  "rhythms named right."));
+                  "Pulses found: 2 of 2; counted within 3 beats a minute: 1 of 2; rhythms "
+                  "named right: 2 of 2."));
   EXPECT_TRUE(has(page, ">70<"));
   EXPECT_TRUE(has(page, ">2.5: too hard<"));
   EXPECT_TRUE(has(page, "3 (not counted)"));

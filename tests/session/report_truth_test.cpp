@@ -73,7 +73,7 @@ constexpr ErrorAndItem kErrors[] = {
     {"Needle left the vein", "Keeps the needle in the vein once blood"}};
 
 void expectErrorsAgree(const Told& told) {
-  int errors = told.is("Too shallow");
+  int errors = told.is("Too flat");
   for (const auto& [error, item] : kErrors) {
     errors += told.is(error);
     if (told.is(error)) {
@@ -82,7 +82,7 @@ void expectErrorsAgree(const Told& told) {
       EXPECT_NE(told.mark(item), "not done") << item << ": which error?";
     }
   }
-  if (told.is("Too shallow")) {
+  if (told.is("Too flat")) {
     EXPECT_EQ(told.mark("Lowers the needle behind the clavicle"), "not done");
   }
   const bool inserted = !told.says("The needle was not inserted: there is no technique");

@@ -40,7 +40,7 @@ std::string ofWords(std::ptrdiff_t some, std::ptrdiff_t all) {
   return std::to_string(some) + " of " + std::to_string(all);
 }
 
-/// Squeeze and friction: "Right: the first one was harder, by 25 %.", then "x 1.25", "x 1".
+/// Squeeze and friction: "Right: the first one was harder, by 25 %.", then "125 %", "100 %".
 void expectAnswersAgree(const Lines& lines) {
   std::map<std::string, std::array<int, 2>> answers;  // property: right, all
   const std::regex answer("^(Right|Wrong): the (first|second) one was (\\w+), by (\\d+) %\\.$");
@@ -50,8 +50,7 @@ void expectAnswersAgree(const Lines& lines) {
     std::array<int, 2>& of = answers[told[3]];
     of[0] += told[1] == "Right";
     ++of[1];
-    const double first = numberIn(lines[i + 1].substr(2)),
-                 second = numberIn(lines[i + 2].substr(2));
+    const double first = numberIn(lines[i + 1]) / 100, second = numberIn(lines[i + 2]) / 100;
     EXPECT_EQ(first > second, told[2] == "first") << lines[i];
     const double high = std::max(first, second), low = std::min(first, second),
                  more = std::stod(told[4]) / 100 + 1;
@@ -61,7 +60,7 @@ void expectAnswersAgree(const Lines& lines) {
   EXPECT_FALSE(answers.empty());
   for (const auto& [property, of] : answers) {
     const std::string sentence = after(lines, "Which one is " + property + "?");
-    EXPECT_EQ(sentence.rfind(ofWords(of[0], of[1]) + " answers were right.", 0), 0u) << sentence;
+    EXPECT_EQ(sentence.rfind("Answers right: " + ofWords(of[0], of[1]) + '.', 0), 0u) << sentence;
     EXPECT_EQ(sentence.find("All answers were right") != std::string::npos, of[0] == of[1]);
   }
 }
@@ -115,9 +114,9 @@ void expectPulsesAgree(const Lines& lines) {
     named += row[5] == row[6];
   }
   EXPECT_GT(all, 0);
-  EXPECT_TRUE(says(lines, ofWords(marked, all) + " pulses were found; " + ofWords(counted, all) +
-                              " counted within " + right[1] + " beats a minute; " +
-                              ofWords(named, all) + " rhythms named right."));
+  EXPECT_TRUE(says(lines, "Pulses found: " + ofWords(marked, all) + "; counted within " +
+                              std::string(right[1]) + " beats a minute: " + ofWords(counted, all) +
+                              "; rhythms named right: " + ofWords(named, all) + '.'));
   EXPECT_EQ(after(lines, "The pulse was found"), ofWords(marked, all));
   EXPECT_EQ(after(lines, "It was counted right"), ofWords(counted, all));
   EXPECT_EQ(after(lines, "The rhythm was named right"), ofWords(named, all));

@@ -82,7 +82,7 @@ TEST(SceneShown, PracticeShowsWhatThereIs) {
   EXPECT_EQ(seen.hud.depth, "20 mm inserted, in lung");
   EXPECT_EQ(seen.hud.touched, "LUNG");
   EXPECT_EQ(seen.hud.phase, "Phase 2: advance to the vein");
-  EXPECT_EQ(seen.hud.notice, "The needle touches the lung");
+  EXPECT_EQ(seen.hud.notice, "The needle touches the lung: pull it back");
   EXPECT_TRUE(seen.hud.alarm);
 }
 

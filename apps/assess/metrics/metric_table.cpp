@@ -166,7 +166,7 @@ constexpr MetricDefinition kMetrics[] = {
      "1 when it was made, else 0", kNoPath},
     {"error_periosteum", "Error: through the periosteum", "1", lower, "needle",
      "1 when it was made, else 0", kNoPath},
-    {"error_shallow", "Error: too shallow", "1", lower, "needle", "1 when it was made, else 0",
+    {"error_shallow", "Error: too flat", "1", lower, "needle", "1 when it was made, else 0",
      kNoPath},
     {"error_cephalad", "Error: too cephalad", "1", lower, "needle", "1 when it was made, else 0",
      kNoPath},

@@ -156,7 +156,7 @@ void aims(const TrialReview& r, const anatomy::LandmarkFrame& frame,
                                        [](const Aim& a) { return -a.steeper; });
   if (flat.times)
     errors->push_back(
-        {"shallow", "Too shallow",
+        {"shallow", "Too flat",
          "The needle was led " + degrees(flat.value) + " too flat over " + millimetres(flat_way) +
              ", from " + seconds(flat.t_s) + " on (an error from " + degrees(rules.too_shallow) +
              " on)" + often(flat.times) + ": it runs onto the bone or passes in front of the vein.",

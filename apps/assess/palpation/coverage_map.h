@@ -56,11 +56,11 @@ class CoverageMap {
 
 }  // namespace palpa::assess
 
-/// Places in the words of the trainee, who stands at the near side: "far" is away from the trainee,
-/// right is right.
+/// Places in the words of the trainee, who stands at the front: "back" is away from the trainee,
+/// right is right. ("far left" would be read as very much to the left.)
 namespace palpa::assess {
 
-/// "far left", "near right", ...; "in the middle" within a quarter of the way to the edges.
+/// "back left", "front right", ...; "in the middle" within a quarter of the way to the edges.
 std::string placeWords(const SearchArea& area, const Vec3& p_P);
 
 /// The quarters that hold most of what has not been felt: the worst, and those at least half as

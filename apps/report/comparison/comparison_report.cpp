@@ -68,8 +68,8 @@ void writeProperty(Html& html, const std::vector<assess::ComparisonTrial>& trial
   if (answers.of == 0) return;
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", std::string("Which one is ") + assess::moreOf(property) + "?");
-  html.element("p", std::to_string(answers.right) + " of " + std::to_string(answers.of) +
-                        " answers were right. " + thresholdSentence(answers));
+  html.element("p", "Answers right: " + std::to_string(answers.right) + " of " +
+                        std::to_string(answers.of) + ". " + thresholdSentence(answers));
   writeComparisonChart(html, answers, assess::moreOf(property));
 }
 
@@ -90,6 +90,8 @@ void writeHeads(Html& html, const std::vector<const char*>& names) {
   for (const char* name : names) html.element("th", name);
 }
 
+constexpr char kAsItIs[] = "100 % is the thing as it is, with nothing made more or less.";
+
 /// What every trial's row ends with.
 void writeForceAndTime(Html& html, const assess::ComparisonTrial& t, double too_hard_N) {
   html.element("td", fixed(t.peak_N, 1) + " N" + (t.peak_N > too_hard_N ? ": too hard" : ""));
@@ -99,6 +101,7 @@ void writeForceAndTime(Html& html, const assess::ComparisonTrial& t, double too_
 void writeAnswers(Html& html, const ComparisonReport& report) {
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", "Every answer");
+  html.element("p", {{"class", "muted small"}}, kAsItIs);
   const auto table = html.in("table", {{"class", "answers"}});
   const bool stroked = isFriction(report.trials);
   writeHeads(html, {"Trial", "Answer", "First", "Second", stroked ? "Touched" : "Held",
@@ -108,14 +111,14 @@ void writeAnswers(Html& html, const ComparisonReport& report) {
     const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});
     html.element("td", numberText(t));
     html.element("td", {{"class", t.answered() && !t.right() ? "wrong-word" : ""}}, summaryOf(t));
-    for (const double factor : t.factors) html.element("td", "x " + trimmed(factor, 2));
+    for (const double factor : t.factors) html.element("td", fixed(100 * factor, 0) + " %");
     html.element("td",
                  std::to_string(t.touches[0]) + " and " + std::to_string(t.touches[1]) + " times");
     writeForceAndTime(html, t, report.too_hard_N);
   }
 }
 
-/// "3 of 4 orders were right; Kendall's tau was 0.92 on average."
+/// "Orders right: 3 of 4. They agreed with the true ones by 0.92 on average (Kendall's tau, ...)."
 std::string orderSentence(const std::vector<assess::ComparisonTrial>& trials) {
   int said = 0, right = 0;
   double sum = 0;
@@ -127,18 +130,17 @@ std::string orderSentence(const std::vector<assess::ComparisonTrial>& trials) {
     sum += *tau;
   }
   if (said == 0) return "No order was said.";
-  return std::to_string(right) + " of " + std::to_string(said) +
-         (said == 1 ? " order was right" : " orders were right") + "; Kendall's tau was " +
-         fixed(sum / said, 2) +
-         " on average. It is 1 for the true order, 0 by chance, and -1 for the reversed one.";
+  return "Orders right: " + std::to_string(right) + " of " + std::to_string(said) +
+         ". They agreed with the true ones by " + fixed(sum / said, 2) +
+         " on average (Kendall's tau: 1 for the true order, 0 by chance, -1 for the reversed one).";
 }
 
-/// The true order with what each surface had: "2 (x 0.5), 1 (x 1)".
+/// The true order with what each surface had: "2 (50 %), 1 (100 %)".
 std::string trueOrderText(const assess::ComparisonTrial& trial) {
   std::string text;
   for (const int number : trial.trueOrder())
-    text += (text.empty() ? "" : ", ") + std::to_string(number) + " (x " +
-            trimmed(trial.factors[static_cast<std::size_t>(number - 1)], 2) + ')';
+    text += (text.empty() ? "" : ", ") + std::to_string(number) + " (" +
+            fixed(100 * trial.factors[static_cast<std::size_t>(number - 1)], 0) + " %)";
   return text;
 }
 
@@ -146,8 +148,9 @@ void writeOrders(Html& html, const ComparisonReport& report) {
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", "From the smoothest to the roughest");
   html.element("p", orderSentence(thatCount(report.trials)));
+  html.element("p", {{"class", "muted small"}}, kAsItIs);
   const auto table = html.in("table", {{"class", "answers"}});
-  writeHeads(html, {"Trial", "Said", "True order", "Tau", "Touched", "Pressed up to", "Time"});
+  writeHeads(html, {"Trial", "Said", "True order", "Agreement", "Touched", "Pressed up to", "Time"});
   const auto body = html.in("tbody");
   for (const assess::ComparisonTrial& t : report.trials) {
     const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});

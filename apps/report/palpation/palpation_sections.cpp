@@ -214,7 +214,10 @@ Fact judgementFact(const assess::PalpationJudgement& judgement,
 }
 
 /// "2.4" and what it and the criterion mean.
-Fact discriminationFact(const statistics::Detections& quarters) {
+Fact discriminationFact(const assess::PalpationJudgement& judgement) {
+  const statistics::Detections& quarters = judgement.quarters;
+  if (judgement.cases < assess::kEnoughCases)
+    return {"d′", "–", "said from " + std::to_string(assess::kEnoughCases) + " cases on"};
   const statistics::Discrimination told = statistics::discriminationOf(quarters);
   if (!std::isfinite(told.d)) return {"d′", "–", "nothing to tell it from"};
   return {"d′", fixed(told.d, 1),
@@ -243,7 +246,7 @@ void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials,
              shareFact("Specificity", sums.clear - sums.wrong, sums.clear,
                        "of the quarters without a lump, those left clear"),
              {"False alarms", std::to_string(sums.false_alarms), "marks where no lump is"},
-             discriminationFact(judgement.quarters),
+             discriminationFact(judgement),
              {"At the standard",
               std::to_string(sums.passed) + " of " + numberOf(sums.trials, "trial", "trials"), ""},
              judgementFact(judgement, standard)});

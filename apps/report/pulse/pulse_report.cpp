@@ -47,10 +47,11 @@ void writeInShort(Html& html, const PulseReport& report,
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", "In short");
   html.element(
-      "p", ofAll(trials, [&](const auto& t) { return t.found(rules); }) + " pulses were found; " +
-               ofAll(trials, [&](const auto& t) { return t.counts(rules); }) + " counted within " +
-               trimmed(rules.count_within, 1) + " beats a minute; " +
-               ofAll(trials, [](const auto& t) { return t.told(); }) + " rhythms named right.");
+      "p", "Pulses found: " + ofAll(trials, [&](const auto& t) { return t.found(rules); }) +
+               "; counted within " + trimmed(rules.count_within, 1) + " beats a minute: " +
+               ofAll(trials, [&](const auto& t) { return t.counts(rules); }) +
+               "; rhythms named right: " + ofAll(trials, [](const auto& t) { return t.told(); }) +
+               '.');
   writeCountChart(html, report);
 }
 
