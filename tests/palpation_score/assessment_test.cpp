@@ -106,7 +106,8 @@ TEST(PalpationAdvice, TellsWhyALumpWasMissed) {
   const PalpationAssessment light = assessed(two, {}, right(0.5));
   ASSERT_GE(light.advice.size(), 2u);
   EXPECT_EQ(
-      light.advice[0].find("One lump (16 mm, back left) was missed: its middle was never felt."), 0u)
+      light.advice[0].find("One lump (16 mm, back left) was missed: its middle was never felt."),
+      0u)
       << light.advice[0];
   EXPECT_EQ(light.advice[1].find(
                 "One lump (12 mm, back right) was missed: its place was felt, but only lightly."),
@@ -114,10 +115,9 @@ TEST(PalpationAdvice, TellsWhyALumpWasMissed) {
       << light.advice[1];
   EXPECT_GE(adviceWith(assessed(two, {}, right(0.9)), "medium pressure, but never deeply"), 0);
   EXPECT_GE(adviceWith(assessed(two, {}, right(1.5)), "felt firmly, but passed over"), 0);
-  EXPECT_EQ(
-      assessed(two, {}).advice[0].find(
-          "2 lumps (12 mm, back right; 16 mm, back left) were missed: their places were felt firmly"),
-      0u);
+  EXPECT_EQ(assessed(two, {}).advice[0].find("2 lumps (12 mm, back right; 16 mm, back left) were "
+                                             "missed: their places were felt firmly"),
+            0u);
   EXPECT_EQ(adviceWith(assessed(two, {aMark(0.02, 0.02), aMark(-0.02, 0.02)}), "missed:"), -1);
 }
 

@@ -64,7 +64,8 @@ double CoverageMap::twice() const {
 namespace {
 
 constexpr double kMiddle = 0.25;  // of the way from the middle to an edge
-constexpr std::array<const char*, 4> kQuarters{"back left", "back right", "front left", "front right"};
+constexpr std::array<const char*, 4> kQuarters{"back left", "back right", "front left",
+                                               "front right"};
 
 std::size_t quarterOf(const Vec3& p_P) { return (p_P.y() < 0 ? 2u : 0u) + (p_P.x() < 0 ? 0u : 1u); }
 

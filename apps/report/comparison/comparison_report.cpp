@@ -150,7 +150,8 @@ void writeOrders(Html& html, const ComparisonReport& report) {
   html.element("p", orderSentence(thatCount(report.trials)));
   html.element("p", {{"class", "muted small"}}, kAsItIs);
   const auto table = html.in("table", {{"class", "answers"}});
-  writeHeads(html, {"Trial", "Said", "True order", "Agreement", "Touched", "Pressed up to", "Time"});
+  writeHeads(html,
+             {"Trial", "Said", "True order", "Agreement", "Touched", "Pressed up to", "Time"});
   const auto body = html.in("tbody");
   for (const assess::ComparisonTrial& t : report.trials) {
     const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});

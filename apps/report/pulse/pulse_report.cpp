@@ -48,8 +48,8 @@ void writeInShort(Html& html, const PulseReport& report,
   html.element("h2", "In short");
   html.element(
       "p", "Pulses found: " + ofAll(trials, [&](const auto& t) { return t.found(rules); }) +
-               "; counted within " + trimmed(rules.count_within, 1) + " beats a minute: " +
-               ofAll(trials, [&](const auto& t) { return t.counts(rules); }) +
+               "; counted within " + trimmed(rules.count_within, 1) +
+               " beats a minute: " + ofAll(trials, [&](const auto& t) { return t.counts(rules); }) +
                "; rhythms named right: " + ofAll(trials, [](const auto& t) { return t.told(); }) +
                '.');
   writeCountChart(html, report);
