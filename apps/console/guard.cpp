@@ -134,7 +134,7 @@ GuardVerdict Guard::judgePage(const GuardedRequest& asked) const {
 GuardVerdict Guard::judgeNumber(const GuardedRequest& asked) {
   const std::lock_guard lock(mutex_);
   if (!isStopPath(asked.path)) {
-    if (writes_.tooMany(asked.remote)) return {429, "too many writes: wait a few seconds"};
+    if (writes_.tooMany(asked.remote)) return {429, "too many requests: wait a few seconds"};
     writes_.note(asked.remote);
   }
   if (!written_.insert(asked.write_id).second) return {409, "this was requested before"};

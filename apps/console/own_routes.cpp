@@ -62,7 +62,7 @@ void enterAsOneself(Console& c, const httplib::Request& q, httplib::Response& r)
                                                                  : std::string());
   if (key.empty())
     return refuse(r, 403,
-                  "that PIN opens nothing: it was used, or is older than ten minutes; after five "
+                  "that PIN does not work: it was used, or is older than ten minutes; after five "
                   "wrong ones wait a minute");
   r.set_header("Set-Cookie", "palpa-mine=" + key + "; HttpOnly; SameSite=Strict; Path=/");
   answer(r, json::object());

@@ -240,7 +240,7 @@ void addPeopleRoutes(WebServer& server, Console& c) {
     const auto all = store.trainees();
     if (!group.empty() && std::none_of(all.begin(), all.end(),
                                        [&](const record::Trainee& t) { return t.group == group; }))
-      return refuse(r, 404, "the records hold nobody of this group");
+      return refuse(r, 404, "nobody in this group is in the records");
     std::vector<std::string> arguments{"report", "cohort"};
     if (!group.empty()) arguments.push_back("--group=" + group);
     answer(r, report(c, "cohort " + group + " " + stateOfRecords(store, ""), "Report of the cohort",

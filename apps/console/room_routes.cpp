@@ -1,9 +1,9 @@
-#include <charconv>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/film_table.h"
 #include "apps/console/routes.h"
 #include "apps/record/session_file.h"
 
@@ -17,49 +17,22 @@ constexpr const char* kFilm = "room.mjpeg";
 constexpr const char* kTable = "room.mjpeg.csv";
 constexpr std::uint64_t kLargest = 1 << 20;  // bytes of a picture
 
-/// A line of the table: number, time of exposure, offset in the film.
-struct Line {
-  std::int64_t t_ns = 0;
-  std::uint64_t offset = 0;
-};
-
-/// False: it is no such line, as the last one of a killed session may be none.
-bool read(const std::string& text, Line* line) {
-  const char* const end = text.data() + text.size();
-  const std::size_t first = text.find(','), second = text.find(',', first + 1);
-  if (second == std::string::npos) return false;
-  const auto whole = [&](std::size_t comma, auto* into) {
-    return std::from_chars(text.data() + comma + 1, end, *into).ec == std::errc();
-  };
-  return whole(first, &line->t_ns) && whole(second, &line->offset);
-}
-
-std::vector<Line> linesOf(const fs::path& table) {
-  std::vector<Line> lines;
-  std::ifstream in(table);
-  std::string text;
-  std::getline(in, text);
-  Line line;
-  while (std::getline(in, text) && read(text, &line)) lines.push_back(line);
-  return lines;
-}
-
 /// Of one trial's pictures [time of the trial in s, where in the film, bytes], in their order.
 json picturesOf(const fs::path& folder, int number) {
   json all = json::array();
   std::error_code none;
   const std::uint64_t bytes = fs::file_size(folder / kFilm, none);
   if (none) return all;
-  const std::vector<Line> lines = linesOf(folder / kTable);
+  const std::vector<FilmPicture> pictures = filmTable(folder / kFilm);
   const record::SessionReader session(folder / "session.palpa");
   const training::TrialTimes times = record::trialTimes(session)[number];
   for (const record::RecordedTrial& trial : session.trials()) {
     if (trial.header.trial != number) continue;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const std::uint64_t to = i + 1 < lines.size() ? lines[i + 1].offset : bytes;
-      if (lines[i].t_ns >= trial.header.t_ns && !trial.isOver(lines[i].t_ns) &&
-          lines[i].offset < to && to <= bytes)
-        all.push_back({times.at(lines[i].t_ns), lines[i].offset, to - lines[i].offset});
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const std::uint64_t to = i + 1 < pictures.size() ? pictures[i + 1].offset : bytes;
+      if (pictures[i].t_ns >= trial.header.t_ns && !trial.isOver(pictures[i].t_ns) &&
+          pictures[i].offset < to && to <= bytes)
+        all.push_back({times.at(pictures[i].t_ns), pictures[i].offset, to - pictures[i].offset});
     }
   }
   return all;

@@ -92,7 +92,7 @@ std::vector<std::string> sessionCommand(const Console& c, const TaskChoice& task
     throw UsageError("is not known here", "a camera in the room",
                      "Begin the console with --room-camera");
   if (wish.film && wish.trainee.empty() && wish.performer == "person")
-    throw UsageError("would film somebody whose records nobody could delete", "no trainee",
+    throw UsageError("a film belongs to a trainee's records", "the room cannot be filmed",
                      "Choose the trainee, who has to agree");
   if (wish.film) a.insert(a.end(), {"--film-room", c.place.room_camera, "--film-agreed"});
   addStation(c.place, kind, &a);
@@ -129,7 +129,7 @@ void command(Console& c, const std::string& id, const httplib::Request& request,
 /// Report and table of a session whose program died, by the command that makes them.
 void finish(Console& c, const std::string& id, httplib::Response& response) {
   if (c.sessions.one(id)["state"] != "interrupted")
-    return refuse(response, 409, "the session owes no report: it is running, or it has one");
+    return refuse(response, 409, "there is no report to make: the session is running, or has one");
   answer(response,
          {{"job", c.jobs.add({"finish " + id,
                               "Report of a session",
@@ -183,7 +183,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatience{1000};
 constexpr char kNoPicture[] =
-    "belongs to a study whose educators are blind: a picture could tell what was drawn";
+    "belongs to a study whose educators are blinded: a picture could tell what was drawn";
 constexpr char kBoundary[] = "palpa-picture";
 
 bool write(httplib::DataSink& sink, const std::string& bytes) {

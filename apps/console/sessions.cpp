@@ -70,10 +70,10 @@ std::string messageOf(const std::string& state, const fs::path& folder) {
   if (state != "failed" && state != "interrupted") return "";
   std::string complaint = complaintIn(folder / kLog);
   if (!complaint.empty()) return complaint;
-  return state == "failed" ? "The session ended before it had started and left no message: it was "
-                             "killed, or the computer stopped. Start it again"
-                           : "The session ended and left no message: it was killed, or the "
-                             "computer stopped. What was recorded until then is kept";
+  return state == "failed" ? "The session ended before it had started and left no message: its "
+                             "program or the computer was stopped. Start it again"
+                           : "The session ended and left no message: its program or the computer "
+                             "was stopped. What was recorded until then is kept";
 }
 
 }  // namespace
@@ -102,8 +102,8 @@ bool Sessions::isBlind(const std::string& id) const {
 
 fs::path Sessions::shown(const std::string& id) const {
   if (isBlind(id))
-    throw UsageError("belongs to a study whose educators are blind", "session " + id,
-                     "Its figures are read with the study's: palpa study analyse");
+    throw UsageError("belongs to a study whose educators are blinded", "session " + id,
+                     "Its figures are read when the study is: palpa study analyse");
   return results(id);
 }
 
@@ -129,7 +129,8 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   const std::lock_guard lock(mutex_);
   if (std::any_of(running_.begin(), running_.end(),
                   [](const auto& one) { return !one.second.over; }))
-    throw UsageError("is running already", "a session", "End it first, or wait until it is over");
+    throw UsageError("one is running already", "a new session cannot start",
+                     "End it first, or wait until it is over");
   std::string id = newId();
   fs::path folder = place_.sessions() / id;
   if (const std::error_code problem = os::makeFolders(folder))

@@ -18,21 +18,21 @@ struct CalibrationStep {
 };
 constexpr CalibrationStep kSteps[] = {
     {"camera", "Camera",
-     "Hold the printed board before the camera, near and far, tilted, in every corner of the "
-     "picture, until the picture is covered."},
+     "Hold the printed board in front of the camera, near and far, tilted, in every corner of "
+     "the picture, until the picture is covered."},
     {"workspace", "Device",
-     "Touch the points of the grid one after the other; this measures how the device errs from "
-     "place to place."},
+     "Touch the points of the grid one after the other. This measures how far off the device is "
+     "from place to place."},
     {"tool", "Needle or probe",
-     "Rest the tip in one place and pivot the tool; then spin it about itself. This finds the tip "
-     "and the direction."},
+     "Rest the tip in one place and swing the tool about it; then spin it about its own length. "
+     "This finds the tip and the direction."},
     {"registration", "Where the device stands",
      "Touch the marked points on the board. This ties what is felt to what is seen."},
     {"latency", "Delay between seen and felt",
-     "Move the tool to and fro before the camera for some seconds."},
+     "Move the tool to and fro in front of the camera for some seconds."},
     {"force-sensor", "Force sensor",
-     "Hold the tool still in different directions. This finds the sensor's bias and the tool's "
-     "weight."},
+     "Hold the tool still in different directions. This finds what the sensor shows without a "
+     "load, and the tool's weight."},
 };
 
 std::string textIn(const fs::path& file) { return readWhole(file).value_or(""); }
@@ -138,9 +138,12 @@ std::string calibrate(Console& c, StationKind kind, const std::string& step) {
   const station::Station station = stationNow(c.place, kind);
   if (step == "all" ? !takesAll(station) : !takes(station, step))
     throw UsageError("cannot be done at this station", step, "Choose one from the list");
-  if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
+  if (c.sessions.oneRuns())
+    throw UsageError("a session is running", "calibration cannot start",
+                     "Calibrate when it is over");
   if (!c.jobs.workingOn("calibrate").empty())
-    throw UsageError("is under way", "another calibration", "Wait until it is over, or stop it");
+    throw UsageError("another one is running", "calibration cannot start",
+                     "Wait until it is over, or stop it");
   JobRequest request;
   request.key = "calibrate";
   request.title = step == "all" ? "Everything" : found->title;
@@ -195,10 +198,10 @@ void checkHealth(Console& c) {
     if (!found.is_object())
       found = {{"can_start", false},
                {"findings",
-                {{{"subject", "doctor"},
+                {{{"subject", "check of the station"},
                   {"state", "ill"},
                   {"verdict", complaintIn(folder / "log.txt")},
-                  {"fix", "Run palpa doctor in a terminal"}}}}};
+                  {"fix", "Check again; if it stays so, run palpa doctor in a terminal"}}}}};
     const std::lock_guard lock(c.health.mutex);
     c.health.findings = std::move(found);
     c.health.checked_utc = utcNow();

@@ -28,8 +28,9 @@ constexpr std::uint64_t kLeast = 200 * kMegabyte,
                         kComfortable = 2000 * kMegabyte;  // a trial leaves some 10 MB
 
 constexpr const char* kPermit =
-    "As root write \"@audio - rtprio 90\" and \"@audio - memlock unlimited\" into "
-    "/etc/security/limits.d/palpa.conf, add this user to the group audio, log in again";
+    "Ask whoever looks after the computer: as root write \"@audio - rtprio 90\" and \"@audio - "
+    "memlock unlimited\" into /etc/security/limits.d/palpa.conf, add this user to the group audio, "
+    "log in again";
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -71,22 +72,23 @@ LoopFacts measureLoop() {
 
 Finding judgeLoop(const LoopFacts& facts, bool needed) {
   constexpr double kLate_us = 500;  // half a step of 1 kHz
+  constexpr const char* kForces = "forces (haptic loop)";
   const std::string measured =
       text("%.0f steps a second, 99 of 100 within %.0f us", facts.rate_Hz, facts.late_99_us);
-  if (!needed) return {"haptic loop", State::well, measured + "; the virtual bench needs no more"};
+  if (!needed) return {kForces, State::well, "enough for the virtual bench: " + measured};
   const bool refused = facts.priority.rfind("SCHED_FIFO", 0) != 0;
   if (facts.rate_Hz < 900 || facts.late_99_us > kLate_us)
-    return {"haptic loop", State::note, measured + ": forces will stutter",
-            refused ? "Let this user run in real time (below), and close other programs"
+    return {kForces, State::note, "they will stutter: " + measured,
+            refused ? std::string(kPermit) + "; and close other programs"
                     : "Close other programs; on a laptop plug in the power supply"};
   if (refused)
-    return {"haptic loop", State::note,
-            measured + ", but at normal priority: forces may stutter when the computer is busy",
+    return {kForces, State::note,
+            "they may stutter when the computer is busy: " + measured + ", but at normal priority",
             kPermit};
   if (facts.memory.find("not locked") != std::string::npos)
-    return {"haptic loop", State::note,
-            measured + ", but its memory may be put out to disk: forces may stutter", kPermit};
-  return {"haptic loop", State::well, measured + ", in real time"};
+    return {kForces, State::note,
+            "they may stutter: " + measured + ", but its memory may be put out to disk", kPermit};
+  return {kForces, State::well, "steady: " + measured + ", in real time"};
 }
 
 DiskFacts measureDisk(const fs::path& folder) {
@@ -140,14 +142,15 @@ Finding judgeDesktop(const Desktop& desktop) {
 Finding askDrawing(const std::function<Drawing()>& draw) {
   try {
     const Drawing by = draw();
-    std::string words = "drawn by OpenGL (" + by.context + ")";
+    std::string words = "drawn";
     if (by.on_processor)
-      words += " on the processor, no graphics processor: " + by.renderer;
+      words += " without a graphics card, on the processor: " + by.renderer + ",";
     else if (!by.renderer.empty())
       words += " on " + by.renderer;
+    words += " by OpenGL (" + by.context + ")";
     for (std::size_t i = 0; i < by.cards.size(); ++i)
-      words +=
-          (i == 0 ? "; --gpu takes " : ", ") + std::to_string(i + 1) + " (" + by.cards[i] + ")";
+      words += (i == 0 ? "; to choose from (--gpu): " : ", ") + std::to_string(i + 1) + " (" +
+               by.cards[i] + ")";
     return {"pictures", State::well, words};
   } catch (const std::exception& e) {
     Finding finding = troubled("pictures", State::ill, e.what());
@@ -160,7 +163,7 @@ Finding judgeSound(const sound::SpeakerFound& found) {
   using Speaker = sound::Loudspeaker;
   constexpr const char* kSilent = ". Sessions go on in silence";
   if (found.state == Speaker::State::opening)
-    return {"sound", State::note, "the sound server does not answer",
+    return {"sound", State::note, "no sound: the sound server does not answer",
             std::string("Log out and in again, or restart the computer") + kSilent};
   if (found.state == Speaker::State::playing) return {"sound", State::well, "on " + found.words};
   return {"sound", State::absent, found.words + kSilent};
@@ -180,11 +183,11 @@ fs::path headsetRuntime() {
 Finding judgeHeadset(const fs::path& file) {
   if (file.empty())
     return {"headset", State::absent,
-            "no OpenXR runtime is installed; the desktop shows everything"};
+            "none is set up (no OpenXR runtime); the desktop shows everything"};
   const auto broken = [&file](const std::string& why) {
-    return Finding{"headset", State::note, why,
+    return Finding{"headset", State::note, "cannot be used: " + why,
                    "Install the headset's OpenXR runtime again, or correct " + file.string() +
-                       ". Sessions on the desktop run without"};
+                       ". Sessions on the desktop run without it"};
   };
   const std::optional<std::string> text = readWhole(file);
   if (!text) return broken("the OpenXR runtime's file cannot be read: " + file.string());
@@ -200,7 +203,8 @@ Finding judgeHeadset(const fs::path& file) {
   const bool search = !library.has_parent_path();  // a bare name is found by the system's loader
   if (!search && !fs::exists(library.is_absolute() ? library : file.parent_path() / library, none))
     return broken("the OpenXR runtime is not where its file says: " + library.string());
-  return {"headset", State::well, "an OpenXR runtime is installed: " + library.filename().string()};
+  return {"headset", State::well,
+          "its software is installed: OpenXR runtime " + library.filename().string()};
 }
 
 Finding askLocale() {
@@ -264,7 +268,7 @@ Finding judgeClocks(const ClockFacts& f, const PictureFacts& pictures, bool shar
   };
   if (f.resolution_ns > kCoarse_ns)
     return note(
-        text("the computer's clock steps by %.1f ms: the haptic loop cannot keep a millisecond",
+        text("the computer's clock is too coarse for steady forces: it steps by %.1f ms",
              1e-6 * static_cast<double>(f.resolution_ns)),
         "Use a kernel with high-resolution timers; in a virtual machine give it the host's clock");
   if (pictures.backward > 0)
@@ -288,7 +292,8 @@ Finding judgeClocks(const ClockFacts& f, const PictureFacts& pictures, bool shar
         "no time server keeps this computer's date; stations that share records should agree on it",
         "timedatectl set-ntp true");
   return {kClocks, State::well,
-          text("steps of %.0f ns; the date goes with them", static_cast<double>(f.resolution_ns)) +
+          text("good: steps of %.0f ns, and the date goes with them",
+               static_cast<double>(f.resolution_ns)) +
               (f.synchronised ? ", kept by a time server" : "")};
 }
 

@@ -71,7 +71,7 @@ Finding judgeFalcon(const haptics::FalconStatus& status) {
   if (status.missed * 20 > status.exchanges) {
     const std::string missed =
         std::to_string(status.missed) + " of " + std::to_string(status.exchanges + status.missed);
-    return {kDevice, State::note, missed + " packets to the Novint Falcon had no answer",
+    return {kDevice, State::note, missed + " messages to the Novint Falcon had no answer",
             "Use another cable or a USB port that no camera is on"};
   }
   return {kDevice, State::well, "the Novint Falcon answers and knows where its grip is"};
@@ -84,7 +84,7 @@ Finding askFirmware(const station::DeviceSetup& setup) {
             "whenever its power was off"};
   try {
     return {"firmware", State::well,
-            text("%.0f bytes in ",
+            text("good: %.0f bytes in ",
                  static_cast<double>(haptics::readFalconFirmware(setup.firmware).size())) +
                 setup.firmware.string()};
   } catch (const std::exception& e) {
@@ -115,8 +115,8 @@ Finding sayWatchdog(const haptics::DeviceCapabilities& device) {
     return {kWatchdog, State::well, "the device lets go by itself when the program dies"};
   return {kWatchdog, State::well,
           "the device may keep its last force when the program dies, is stopped, or hangs in its "
-          "driver: a guard process takes it away; where the driver hangs, only once the session "
-          "has ended. Keep its power switch within reach"};
+          "driver. A guard process takes that force away; where the driver hangs, only once the "
+          "session has ended. Keep its power switch within reach"};
 }
 
 Finding judgeSensor(const SensorFacts& facts) {
@@ -165,7 +165,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRule = "udev rule";
+constexpr const char* kRule = "Falcon's permission (udev rule)";
 constexpr const char* kRuleFile = "60-palpa-falcon.rules";
 
 bool holds(const std::string& line, const char* words) {
@@ -190,7 +190,7 @@ std::string remedy() {
     file = station::assetFile("udev/" + file).string();
   } catch (const std::exception&) {  // that the data are missing is told elsewhere
   }
-  return "As root: cp " + file +
+  return "Ask whoever looks after the computer, as root: cp " + file +
          " /etc/udev/rules.d/, then udevadm control --reload, and plug the Falcon in again. The "
          "Debian package brings the rule";
 }
@@ -218,7 +218,8 @@ Finding askUdevRule(const std::vector<fs::path>& folders) {
       return {kRule, State::note,
               file.string() + " names the Falcon and lets nobody but root use it", remedy()};
     }
-  return {kRule, State::note, "there is none for the Falcon: only root may use it", remedy()};
+  return {kRule, State::note, "there is none: only the administrator (root) may use the Falcon",
+          remedy()};
 }
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/doctor/finding.h"
 #include "apps/record/store/store_look.h"
@@ -11,7 +12,8 @@ namespace palpa::doctor {
 namespace {
 
 constexpr const char* kAnew =
-    "Calibrate it again: palpa calibrate all; until then sessions are not scored";
+    "Calibrate it again, on the console's page Calibrate or by palpa calibrate all; until then "
+    "sessions are not scored";
 
 std::string waitingWords(std::size_t waiting) {
   if (waiting == 0) return "";
@@ -54,7 +56,7 @@ Findings judgeCalibrations(const station::Station& station, const std::string& n
     if (fault.empty())
       findings.push_back({subject, State::well,
                           "of " + one.file.date.substr(0, 10) + ", good for " +
-                              std::to_string(one.file.valid_days) + " days"});
+                              counted(one.file.valid_days, "day")});
     else
       findings.push_back({subject, State::note, fault, kAnew});
   }

@@ -1,12 +1,12 @@
 #include "apps/replay/needle_replay.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "anatomy/base/film_table.h"
 #include "apps/replay/trial_replay.h"
 #include "apps/task_needle/needle_scene.h"
 #include "ar/codecs/codecs.h"
@@ -52,30 +52,14 @@ namespace {
 // JPEG's start of image; a byte 0xff in the data is followed by 0 (ITU T.81, B.1.1.5)
 constexpr unsigned char kEscape = 0xff, kBegin = 0xd8;
 
-/// Second field of every line after the first.
-std::vector<std::int64_t> timesIn(const std::filesystem::path& table) {
-  std::vector<std::int64_t> times;
-  std::ifstream lines(table);
-  std::string line;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    const std::size_t comma = line.find(',');
-    std::int64_t t = 0;
-    if (comma == std::string::npos ||
-        std::from_chars(line.data() + comma + 1, line.data() + line.size(), t).ec != std::errc())
-      break;
-    times.push_back(t);
-  }
-  return times;
-}
-
 }  // namespace
 
 RecordedPictures::RecordedPictures(const std::filesystem::path& folder)
     : film_(folder / "camera.mjpeg", std::ios::binary) {
   if (!film_) return;
   findPictures();
-  times_ns_ = timesIn(folder / "camera.mjpeg.csv");
+  for (const FilmPicture& picture : filmTable(folder / "camera.mjpeg"))
+    times_ns_.push_back(picture.t_ns);
   times_ns_.resize(std::min(times_ns_.size(), begins_.size() - 1));
 }
 

@@ -46,7 +46,8 @@ class Playback final : public runtime::Activity {
   void publish(const replay::NeedleMoment& moment, std::int64_t now_ns) {
     task_needle::TaskStatus status = replay::statusAt(moment, 1, true);
     status.role = training::Role::demonstration;
-    status.notice = "Demonstration by a simulated expert. Enter: your turn";
+    status.notice =
+        "Demonstration by a simulated expert, drawn without the camera. Enter: your turn";
     bus_.haptic_to_scene.publish(moment.tool, now_ns);
     channels_.status_to_scene.publish(status, now_ns);
   }

@@ -105,7 +105,9 @@ DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& pa
   DesktopStage stage;
   stage.context = scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
                                        place, "Palpa");
-  if (window) stage.renderer = stage.context->renderer();
+  const std::string renderer = stage.context->renderer();
+  layout.creases = !scene::drawsOnProcessor(renderer);
+  if (window) stage.renderer = renderer;
   stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
   return stage;
 }

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/film_table.h"
 #include "anatomy/base/whole_file.h"
 #include "ar/codecs/codecs.h"
 
@@ -97,32 +96,16 @@ namespace {
 
 constexpr double kUsualRate = 30;
 
-/// Second column of the table beside a film: ns. Empty where there is none.
-std::vector<std::int64_t> timesBeside(const std::filesystem::path& film) {
-  std::vector<std::int64_t> times;
-  std::ifstream table(film.string() + ".csv");
-  std::string line;
-  std::getline(table, line);  // header
-  while (std::getline(table, line)) {
-    long long number = 0, t = 0;
-    if (std::sscanf(line.c_str(), "%lld,%lld", &number, &t) != 2 ||
-        (!times.empty() && t <= times.back()))
-      break;
-    times.push_back(t);
-  }
-  return times;
-}
-
 }  // namespace
 
 struct VideoFile::Impl {
   explicit Impl(const std::filesystem::path& file)
-      : path(file), film(makeVideoCapture()), times(timesBeside(file)) {
+      : path(file), film(makeVideoCapture()), table(filmTable(file)) {
     film->open(file.string(), cv::CAP_FFMPEG);
   }
   std::filesystem::path path;
   std::unique_ptr<cv::VideoCapture> film;
-  std::vector<std::int64_t> times;
+  std::vector<FilmPicture> table;
   double rate = kUsualRate;
   std::uint64_t next = 0;
 };
@@ -141,10 +124,10 @@ VideoFile::VideoFile(const std::filesystem::path& file) try : impl_(std::make_un
 VideoFile::~VideoFile() = default;
 
 double VideoFile::rate_Hz() const {
-  const std::vector<std::int64_t>& times = impl_->times;
-  return times.size() < 2 ? impl_->rate
-                          : 1e9 * static_cast<double>(times.size() - 1) /
-                                static_cast<double>(times.back() - times.front());
+  const std::vector<FilmPicture>& table = impl_->table;
+  return table.size() < 2 ? impl_->rate
+                          : 1e9 * static_cast<double>(table.size() - 1) /
+                                static_cast<double>(table.back().t_ns - table.front().t_ns);
 }
 
 std::optional<Frame> VideoFile::grab() {
@@ -156,8 +139,8 @@ std::optional<Frame> VideoFile::grab() {
     return std::nullopt;
   }
   frame.number = impl_->next++;
-  const bool timed = frame.number < impl_->times.size();
-  frame.t_exposure_ns = timed ? impl_->times[frame.number]
+  const bool timed = frame.number < impl_->table.size();
+  frame.t_exposure_ns = timed ? impl_->table[frame.number].t_ns
                               : std::llround(1e9 * static_cast<double>(frame.number) / impl_->rate);
   frame.source = impl_->path.string();
   return frame;

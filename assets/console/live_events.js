@@ -65,7 +65,7 @@ export class LiveEvents {
       },
       this.label,
       this.text,
-      h("p", { class: "hint", id: "note-hint" }, "It stands on the session's report."),
+      h("p", { class: "hint", id: "note-hint" }, "It will stand in the session's report."),
       this.said,
       h(
         "div",
@@ -163,7 +163,7 @@ export class LiveEvents {
       h(
         "li",
         { class: "muted earlier" },
-        "Earlier events are not shown here: they are in the session's evidence and its report.",
+        "Earlier events are not shown here: they are in the session's recording and report.",
       ),
     );
   }

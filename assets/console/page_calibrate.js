@@ -117,7 +117,9 @@ function counted(lines) {
 }
 
 function stateOf(station) {
-  const good = station.measured ? "calibrated" : "not measured yet, scored by its file";
+  const good = station.measured
+    ? "calibrated"
+    : "nothing measured here yet; the station's file gives the figures";
   return `${station.title}: ${station.trouble || good}`;
 }
 
@@ -173,8 +175,8 @@ export async function show({ root, life, open, query }) {
         "p",
         { class: "muted" },
         "Each step takes a minute or less. " +
-          "What a step measures replaces what was there only when it is good enough." +
-          (all.all ? "" : " The other steps need points to touch, which this station has not."),
+          "A new result replaces the old one only when it is good enough." +
+          (all.all ? "" : " The other steps need points to touch, which this station lacks."),
       ),
     );
     const others = (all.calibrations || []).filter(

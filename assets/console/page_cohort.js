@@ -34,7 +34,7 @@ export async function show({ root, life, query, open }) {
       notice(
         "none",
         group
-          ? `Nobody of the group ${group} has a recorded trial yet.`
+          ? `Nobody in the group ${group} has a recorded trial yet.`
           : "There is no recorded trial yet. A session with a trainee adds to this report.",
       ),
       h("p", {}, h("a", { class: "button", href: "#/session" }, "Start a session")),

@@ -19,7 +19,7 @@ export async function show({ root, open }) {
   };
   root.append(
     doorForm({
-      about: "This station keeps training records of people, so it asks for a token.",
+      about: "This station keeps training records of people, so it asks for a token (password).",
       label: "Token",
       control: token,
       hint:

@@ -28,9 +28,9 @@ class SessionTime {
 }
 
 const kBlind =
-  "This session belongs to a study whose educators are blind: you see how it stands, which trial " +
-  "it is, its time, stops and your notes. Pictures, forces and results could tell the condition " +
-  "that was drawn; they are read with the study's.";
+  "This session belongs to a study whose educators are blinded: you see how it stands, which " +
+  "trial it is, its time, stops and your notes. Pictures, forces and results could tell the " +
+  "condition that was drawn; they are read when the study is.";
 
 function figures(blind) {
   const made = {};
@@ -141,8 +141,8 @@ export async function show({ root, life, params: [id], open }) {
     "p",
     { class: "muted small keys" },
     "Keys: Ctrl . (Control and full stop) is the emergency stop, from anywhere on this page; " +
-      "M marks a moment when no text field has the focus. " +
-      "The emergency stop travels over the network: the stop at the station itself comes first.",
+      "M marks a moment, unless you are typing. " +
+      "The emergency stop goes over the network: at the station, use the stop there first.",
   );
   root.append(
     controls.node,

@@ -26,7 +26,7 @@ function door(draw) {
     about: "Here you read your own results, and nobody else's.",
     label: "PIN",
     control: pin,
-    hint: "Your educator shows it to you. It opens once, within ten minutes.",
+    hint: "Your educator shows it to you. It works once, within ten minutes.",
     go: "Show my results",
     work,
   });

@@ -1,6 +1,6 @@
 // A trial again: picture, force, depth, phases and events on one time; another trial beside it.
 import { h, mark, put, say, svg } from "./dom.js";
-import { clock, figure } from "./format.js";
+import { clock, figure, plural } from "./format.js";
 import { asTable, choice, field, notice, progress, table } from "./parts.js";
 import { needleTrack } from "./needle_track.js";
 import { loadReplay, momentsOf, trialsBeside } from "./replay_data.js";
@@ -35,7 +35,7 @@ function view(alt, caption) {
     node: h("figure", {}, h("div", { class: "view-box" }, word, img), note),
     show(replay) {
       const some = !replay.ready && replay.drawn > 0;
-      say(note, some ? `${caption}. Drawn so far: ${replay.drawn} pictures` : caption);
+      say(note, some ? `${caption}. Drawn so far: ${plural(replay.drawn, "picture")}` : caption);
       if (some) return void put(word);
       put(
         word,
@@ -302,7 +302,7 @@ function build({ root, life, id, n, replay, options }) {
       h(
         "section",
         { class: "card", "aria-label": "Beside" },
-        h("h2", {}, "Expert beside"),
+        h("h2", {}, "Side by side"),
         field(
           "Another trial",
           select,

@@ -32,7 +32,10 @@ function verdict(session) {
   const counting = results.filter((r) => r.outcome !== "void" && r.counts !== false),
     good = counting.filter(hasReached);
   if (counting.length === 0)
-    return ["none", results.length ? "No trial counts: all are void." : "No trial was held."];
+    return [
+      "none",
+      results.length ? "No trial counts: all are void or not scored." : "No trial was held.",
+    ];
   if (counting.length === 1)
     return [
       trialOutcome(counting[0])[0],
@@ -207,7 +210,7 @@ export async function show({ root, life, params: [id], open }) {
     root.append(
       notice(
         "note",
-        "This session belongs to a study whose educators are blind: " +
+        "This session belongs to a study whose educators are blinded: " +
           "report, figures and replay are not shown here. " +
           "They can be read with the study's results when it is over.",
       ),

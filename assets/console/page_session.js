@@ -98,7 +98,7 @@ function form(tasks, trainees, me, chosenTrainee) {
     "Film the room, for the debrief",
     false,
     "Only if the trainee agrees, to this session: ask first. It stays on this computer, is in no " +
-      "export, and goes when the trainee's records are deleted, or before.",
+      "export, and is deleted with the trainee's records, or before.",
   );
   const surface = choice([["", "as the task has it"]], "");
   const surfaceField = field("What lies there", surface, "On the virtual bench: softer or firmer.");
@@ -209,9 +209,9 @@ function form(tasks, trainees, me, chosenTrainee) {
       h(
         "div",
         { class: "grid three" },
-        field("Trials", trials, "A person tries once before: that one is not scored."),
+        field("Trials", trials, "A person has one try first, which is not scored."),
         patientField,
-        field("Seed", seed, "The same seed gives the same simulated hand again."),
+        field("Seed", seed, "The same number gives the same simulated hand again."),
       ),
     ),
     heldAt,
@@ -223,7 +223,8 @@ function form(tasks, trainees, me, chosenTrainee) {
       h(
         "span",
         { class: "muted" },
-        "A window opens at the station for who trains; you watch and control it on the next page.",
+        "A window opens at the station for the person who trains; " +
+          "you watch and control the session on the next page.",
       ),
     ),
   );

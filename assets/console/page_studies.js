@@ -42,7 +42,7 @@ function nextBlock(study, trainees, me) {
     ? h(
         "p",
         { class: "hint" },
-        `Not offered, since they have not agreed to use in research: ${silent.join(", ")}. `,
+        `Not offered, since they have not agreed to research: ${silent.join(", ")}. `,
         h("a", { href: "#/trainees" }, "Note it on the page Trainees"),
         " once they do.",
       )
@@ -57,7 +57,7 @@ function nextBlock(study, trainees, me) {
         "p",
         { class: "muted" },
         "Nobody's next block is due. The first block enrols a new trainee: " +
-          `add one of the group ${(study.groups || []).join(" or ")} on the page Trainees.`,
+          `add one to the group ${(study.groups || []).join(" or ")} on the page Trainees.`,
       ),
       asked,
     ];

@@ -23,7 +23,7 @@ function ownDevice(id) {
         "p",
         { class: "hint" },
         `On the trainee's own device, open ${forOthers()} and type this PIN. ` +
-          `It opens once, within ${minutes} minutes, and shows the results of ${id} only.`,
+          `It works once, within ${minutes} minutes, and shows the results of ${id} only.`,
       ),
     );
   };

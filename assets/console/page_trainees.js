@@ -22,7 +22,7 @@ function research(trainee, done) {
       trainee.id,
       agrees
         ? `${trainee.id} takes part in no study from now on.`
-        : `${trainee.id} agrees to use in research: noted.`,
+        : `${trainee.id} agrees to the use of the records in research: noted.`,
     );
   };
   return h(
@@ -77,7 +77,7 @@ function form(trainees, groups, done) {
     { required: true },
   );
   const research = tick(
-    "The trainee also agrees to use in research",
+    "The trainee also agrees that they are used in research",
     false,
     "Separate and voluntary: training does not depend on it.",
   );

@@ -143,32 +143,42 @@ export function radios(legend, options, chosen, onchange) {
   return { node, value: () => node.querySelector("input:checked")?.value ?? "" };
 }
 
-/** Rows are arrays of text or nodes; the first of a row is its heading. */
+const kMostOnAPhone = 4; // columns
+
+/**
+ * Rows are arrays of text or nodes; the first of a row is its heading. Wider than a phone's screen,
+ * each row stands there as a card, with the column's name before each figure (style.css); the roles
+ * keep it a table for who hears it.
+ */
 export function table(caption, heads, rows, hideCaption = false) {
   return h(
     "div",
     { class: "scroll", role: "region", "aria-label": caption, tabindex: "0" },
     h(
       "table",
-      {},
+      { role: "table", class: heads.length > kMostOnAPhone ? "stacks" : null },
       h("caption", { class: hideCaption ? "unseen" : null }, caption),
       h(
         "thead",
-        {},
+        { role: "rowgroup" },
         h(
           "tr",
-          {},
-          heads.map((x) => h("th", { scope: "col" }, x)),
+          { role: "row" },
+          heads.map((x) => h("th", { scope: "col", role: "columnheader" }, x)),
         ),
       ),
       h(
         "tbody",
-        {},
+        { role: "rowgroup" },
         rows.map((row) =>
           h(
             "tr",
-            {},
-            row.map((cell, at) => (at === 0 ? h("th", { scope: "row" }, cell) : h("td", {}, cell))),
+            { role: "row" },
+            row.map((cell, at) =>
+              at === 0
+                ? h("th", { scope: "row", role: "rowheader" }, cell)
+                : h("td", { role: "cell", "data-head": heads[at] }, h("div", {}, cell)),
+            ),
           ),
         ),
       ),

@@ -132,7 +132,7 @@ function judgements(life, sheet, number) {
   const place = h("div", {});
   const verdict = button("Verdict", () =>
     made(life, sheet, "trial", place, (page) => {
-      announce("The verdict is there.");
+      announce("The verdict is ready.");
       return reportFrame(page, `Verdict on trial ${number}`);
     }),
   );

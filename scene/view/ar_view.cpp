@@ -84,6 +84,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
   if (layout.skin_deflection && organs_.skin())
     skin_ = std::make_unique<DeflectedSkin>(seenSkin(patient)->mesh, *organs_.skin());
   setUpRenderers();
+  if (layout.creases) compositor_.shadeCreases();
   if (stereo_ == Stereo::headset && !see_through_)
     room_ = std::make_unique<Room>(*renderer_, patient);
   if (stereo_ == Stereo::headset)

@@ -22,6 +22,7 @@
 
 #include "scene/actors/camera_picture.h"
 #include "scene/view/compositor_glsl.h"
+#include "scene/view/creases.h"
 
 namespace palpa::scene {
 namespace {
@@ -106,32 +107,6 @@ CameraLook legible(CameraLook look) {
   return look;
 }
 
-void keepInside(vtkTextureObject& texture, vtkOpenGLRenderWindow& window, int wrap) {
-  texture.SetContext(&window);
-  texture.SetWrapS(wrap);
-  texture.SetWrapT(wrap);
-  texture.SetMinificationFilter(vtkTextureObject::Linear);
-  texture.SetMagnificationFilter(vtkTextureObject::Linear);
-}
-
-void fit(vtkTextureObject& texture, int width, int height) {
-  const auto wide = static_cast<unsigned int>(width), high = static_cast<unsigned int>(height);
-  if (texture.GetHandle() == 0)
-    texture.Allocate2D(wide, high, 4, VTK_UNSIGNED_CHAR);
-  else if (texture.GetWidth() != wide || texture.GetHeight() != high)
-    texture.Resize(wide, high);
-}
-
-/// For as long as it lives: neither depths nor blending.
-struct FlatDrawing {
-  explicit FlatDrawing(vtkOpenGLState* state)
-      : depth(state, GL_DEPTH_TEST), blend(state, GL_BLEND) {
-    state->vtkglDisable(GL_DEPTH_TEST);
-    state->vtkglDisable(GL_BLEND);
-  }
-  vtkOpenGLState::ScopedglEnableDisable depth, blend;
-};
-
 }  // namespace
 
 /// Drawn by VTK after everything else of its renderer.
@@ -141,13 +116,13 @@ class Compositor::Pass : public vtkProp {
   vtkTypeMacro(Pass, vtkProp);
 
   void show(const Image* picture, const CameraLook& look, bool smooth);
+  void shadeCreases() { creases_ = std::make_unique<Creases>(); }
   int RenderOverlay(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
  private:
-  using Quad = std::unique_ptr<vtkOpenGLQuadHelper>;
   void prepare(vtkOpenGLRenderWindow& window, int width, int height);
-  void smoothApart(vtkOpenGLRenderWindow& window, int width, int height);
+  void smoothApart(vtkOpenGLRenderWindow& window, vtkTextureObject& drawn);
   void compose(vtkOpenGLRenderWindow& window, vtkTextureObject& drawn, double blur_px, int width,
                int height);
   double blurIn(int width) const;
@@ -160,7 +135,8 @@ class Compositor::Pass : public vtkProp {
   std::mt19937 places_{2};
   vtkNew<vtkTextureObject> drawn_, smooth_, camera_, grain_;
   vtkNew<vtkOpenGLFramebufferObject> apart_;
-  Quad smooth_only_, jagged_, sharp_, blurred_;
+  FlatQuad smooth_only_, jagged_, sharp_, blurred_;
+  std::unique_ptr<Creases> creases_;  ///< null: they are as light as all else
 };
 vtkStandardNewMacro(Compositor::Pass);
 
@@ -183,16 +159,11 @@ void Compositor::Pass::show(const Image* picture, const CameraLook& look, bool s
 
 void Compositor::Pass::prepare(vtkOpenGLRenderWindow& window, int width, int height) {
   if (!smooth_only_) {
-    const auto quad = [&](std::initializer_list<const char*> parts) {
-      std::string text;
-      for (const char* part : parts) text += part;
-      return std::make_unique<vtkOpenGLQuadHelper>(&window, nullptr, text.c_str(), nullptr);
-    };
     using namespace glsl;
-    smooth_only_ = quad({kBegin, kSmooth, kSmoothOnly});
-    jagged_ = quad({kBegin, kJagged, kOver});
-    sharp_ = quad({kBegin, kSmooth, kSharp, kOver});
-    blurred_ = quad({kBegin, kBlur, kOver});
+    smooth_only_ = flatQuad(window, {kBegin, kSmooth, kSmoothOnly});
+    jagged_ = flatQuad(window, {kBegin, kJagged, kOver});
+    sharp_ = flatQuad(window, {kBegin, kSmooth, kSharp, kOver});
+    blurred_ = flatQuad(window, {kBegin, kBlur, kOver});
     for (vtkTextureObject* texture : {drawn_.Get(), smooth_.Get(), camera_.Get()})
       keepInside(*texture, window, vtkTextureObject::ClampToEdge);
     keepInside(*grain_, window, vtkTextureObject::Repeat);
@@ -221,25 +192,19 @@ double Compositor::Pass::blurIn(int width) const {
   return left < kLeastBlur * kLeastBlur ? 0 : std::min(std::sqrt(left), kWidestBlur);
 }
 
-void Compositor::Pass::smoothApart(vtkOpenGLRenderWindow& window, int width, int height) {
+void Compositor::Pass::smoothApart(vtkOpenGLRenderWindow& window, vtkTextureObject& drawn) {
+  const auto width = static_cast<int>(drawn.GetWidth()),
+             height = static_cast<int>(drawn.GetHeight());
   fit(*smooth_, width, height);
-  vtkOpenGLState& state = *window.GetState();
-  const vtkOpenGLState::ScopedglViewport viewport(&state);
-  const vtkOpenGLState::ScopedglScissor scissor(&state);
-  state.PushFramebufferBindings();
-  apart_->Bind();
-  apart_->AddColorAttachment(0, smooth_);
-  apart_->ActivateBuffer(0);
-  state.vtkglViewport(0, 0, width, height);
-  state.vtkglScissor(0, 0, width, height);
-  window.GetShaderCache()->ReadyShaderProgram(smooth_only_->Program);
-  drawn_->Activate();
-  const float texel[] = {1.0F / static_cast<float>(width), 1.0F / static_cast<float>(height)};
-  smooth_only_->Program->SetUniformi("drawn", drawn_->GetTextureUnit());
-  smooth_only_->Program->SetUniform2f("texel", texel);
-  smooth_only_->Render();
-  drawn_->Deactivate();
-  state.PopFramebufferBindings();
+  drawInto(*smooth_, *apart_, window, [&] {
+    window.GetShaderCache()->ReadyShaderProgram(smooth_only_->Program);
+    drawn.Activate();
+    const float texel[] = {1.0F / static_cast<float>(width), 1.0F / static_cast<float>(height)};
+    smooth_only_->Program->SetUniformi("drawn", drawn.GetTextureUnit());
+    smooth_only_->Program->SetUniform2f("texel", texel);
+    smooth_only_->Render();
+    drawn.Deactivate();
+  });
 }
 
 void Compositor::Pass::compose(vtkOpenGLRenderWindow& window, vtkTextureObject& drawn,
@@ -293,10 +258,12 @@ int Compositor::Pass::RenderOverlay(vtkViewport* viewport) {
   prepare(window, width, height);
   const FlatDrawing flat(window.GetState());
   drawn_->CopyFromFrameBuffer(left, bottom, 0, 0, width, height);
+  vtkTextureObject* drawn = drawn_;
+  if (creases_) drawn = &creases_->shade(*drawn, {left, bottom, width, height}, renderer);
   const double blur_px = blurIn(width);
   const bool apart = blur_px > 0 && smooth_edges_;
-  if (apart) smoothApart(window, width, height);
-  compose(window, apart ? *smooth_ : *drawn_, blur_px, width, height);
+  if (apart) smoothApart(window, *drawn);
+  compose(window, apart ? *smooth_ : *drawn, blur_px, width, height);
   return 1;
 }
 
@@ -304,10 +271,11 @@ void Compositor::Pass::ReleaseGraphicsResources(vtkWindow* window) {
   for (vtkTextureObject* texture : {drawn_.Get(), smooth_.Get(), camera_.Get(), grain_.Get()})
     texture->ReleaseGraphicsResources(window);
   apart_->ReleaseGraphicsResources(window);
-  for (Quad* quad : {&smooth_only_, &jagged_, &sharp_, &blurred_}) {
+  for (FlatQuad* quad : {&smooth_only_, &jagged_, &sharp_, &blurred_}) {
     if (*quad) (*quad)->ReleaseGraphicsResources(window);
     quad->reset();
   }
+  if (creases_) creases_->release(window);
   tile_neighbours_ = -1;
   fresh_ = picture_.width > 0;
   Superclass::ReleaseGraphicsResources(window);
@@ -317,6 +285,8 @@ Compositor::Compositor(vtkRenderer& last)
     : renderer_(last), pass_(Pass::New(), [](Pass* pass) { pass->Delete(); }) {
   renderer_.AddViewProp(pass_.get());
 }
+
+void Compositor::shadeCreases() { pass_->shadeCreases(); }
 
 Compositor::~Compositor() { renderer_.RemoveViewProp(pass_.get()); }
 

@@ -29,6 +29,7 @@ class Compositor {
   /// size and pixels disagree.
   void show(const Image* picture, const CameraLook& look, bool smooth);
   void setOn(bool on);
+  void shadeCreases();  ///< from now on (creases.h), before edges are smoothed
 
  private:
   class Pass;

@@ -40,6 +40,7 @@ struct ViewLayout {
   /// Of the camera's picture the part where the work is, as large as it goes; else all of it
   bool framed = false;
   double text_scale = 1;  ///< of the desktop's text
+  bool creases = false;   ///< darker (view/creases.h): where a graphics card draws
 };
 
 /// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left:

@@ -29,8 +29,8 @@ struct Fault {
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 const std::vector<std::string> kOfAFalcon{
-    "haptic device", "udev rule", "calibrations",
-    "haptic loop"};  // of the shipped station; that the computer may not refuse real time
+    "haptic device", "Falcon's permission (udev rule)", "calibrations",
+    "forces (haptic loop)"};  // of the shipped station; that the computer may not refuse real time
 
 const nlohmann::json kHere{{"position_mm", {0, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}};
 
@@ -159,11 +159,11 @@ const std::vector<Fault>& deviceFaults() {
                        "falcon.json");
        },
        kOfAFalcon},
-      {"NoRealTime", "haptic loop", "note", "normal priority", "limits.d",
+      {"NoRealTime", "forces (haptic loop)", "note", "normal priority", "limits.d",
        [](BrokenBench& b) { falcon(b), b.computer("no real time"); }, kOfAFalcon},
-      {"NoLockedMemory", "haptic loop", "note", "put out to disk", "limits.d",
+      {"NoLockedMemory", "forces (haptic loop)", "note", "put out to disk", "limits.d",
        [](BrokenBench& b) { falcon(b), b.computer("no locked memory"); }, kOfAFalcon},
-      {"BusyComputer", "haptic loop", "note", "will stutter", "lose",
+      {"BusyComputer", "forces (haptic loop)", "note", "will stutter", "lose",
        [](BrokenBench& b) { falcon(b), b.computer("busy computer"); }, kOfAFalcon},
       {"SilentForceSensor", "force sensor", "ill", "127.0.0.1", "",
        [](BrokenBench& b) { b.sensorAt(9); }},

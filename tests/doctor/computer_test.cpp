@@ -58,18 +58,18 @@ TEST(DoctorsComputer, MonitorsAndWhyThereIsNoWindow) {
   expectSays(askDrawing([] {
                return Drawing{"EGL device", "A", false, {"A", "/dev/dri/card1"}};
              }),
-             State::well, "--gpu takes 1 (A), 2 (/dev/dri/card1)");
+             State::well, "(--gpu): 1 (A), 2 (/dev/dri/card1)");
 }
 
 TEST(DoctorsComputer, DrawingAndHeadset) {
   expectSays(askDrawing([] {
                return Drawing{"X11 window", "NVIDIA RTX 4000/PCIe", false};
              }),
-             State::well, "drawn by OpenGL (X11 window) on NVIDIA RTX 4000/PCIe");
+             State::well, "drawn on NVIDIA RTX 4000/PCIe by OpenGL (X11 window)");
   expectSays(askDrawing([] {
                return Drawing{"surfaceless EGL", "llvmpipe (256 bits)", true};
              }),
-             State::well, "on the processor, no graphics processor: llvmpipe (256 bits)");
+             State::well, "without a graphics card, on the processor: llvmpipe (256 bits)");
   expectSays(askDrawing([]() -> Drawing {
                throw Error("cannot be made", "OpenGL context", "Install a driver");
              }),

@@ -43,7 +43,7 @@ expect "  says the package's version" [ "$answer" = "palpa $(dpkg-deb -f "$deb" 
 timed "palpa doctor --json" as_user palpa doctor --json
 expect "  a session can start" grep -q '"can_start": true' <<<"$answer"
 expect "  its data are the package's" grep -q '"/usr/share/palpa/assets"' <<<"$answer"
-expect "  pictures are drawn by OpenGL" grep -q 'drawn by OpenGL' <<<"$answer"
+expect "  pictures are drawn by OpenGL" grep -q 'by OpenGL (' <<<"$answer"
 sed -n 's/^ *"verdict": "\(.*\)"$/      \1/p' <<<"$answer"
 timed "a demonstration without pictures" as_user \
   palpa subclavian --operator expert --fast --no-views --trials 1 --quiet --out /tmp/x

@@ -108,7 +108,7 @@ TEST(ComparisonPage, OrdersStandBesideTheTrueOnes) {
   const std::string page = pageOf(report);
   for (const char* words :
        {"Orders right: 1 of 2. They agreed with the true ones by 0.83 on average",
-        "2 (50 %), 1 (100 %), 4 (140 %), 3 (280 %)", "1, 2, 4, 3", "0.67", "5 times",
+        "2 (50 %), 1 (100 %), 4 (140 %), 3 (280 %)", "1, 2, 4, 3", "0.67", "<td>5</td>",
         "The time was over before something was said.", "M. G. Kendall"})
     EXPECT_TRUE(saysPage(page, words)) << words;
   EXPECT_FALSE(saysPage(page, "Every answer"));
@@ -118,7 +118,7 @@ TEST(ComparisonPage, FrictionIsStrokedAndNotHeld) {
   ComparisonReport report = someAnswers();
   report.trials = {answered(1, assess::ComparedProperty::friction, 1.4, 2)};
   const std::string page = pageOf(report);
-  for (const char* words : {"Which one is rougher?", "Touched", "Pressed up to",
+  for (const char* words : {"Which one is rougher?", "Touches", "Pressed up to",
                             "Right: the second one was rougher, by 40 %."})
     EXPECT_TRUE(saysPage(page, words)) << words;
   EXPECT_FALSE(saysPage(page, "Squeezed up to"));

@@ -239,12 +239,16 @@ void benchCosts(const anatomy::Patient& patient, const RenderBenchOptions& optio
     };
   };
   print_cost("smooth edges", sharp(false), sharp(true));
-  const auto beside =
-      scene::makeGlContext(scene::Display::offscreen, options.width, options.height, "Palpa");
-  scene::ViewLayout framed{options.width, options.height};
-  framed.framed = true;
-  scene::SceneView closer(*beside, patient, framed);
-  print_cost("framed on the work", all, [&](int i) { closer.show(frames.at(i)); });
+  const auto print_layout = [&](const char* part, void (*change)(scene::ViewLayout&)) {
+    const auto beside =
+        scene::makeGlContext(scene::Display::offscreen, options.width, options.height, "Palpa");
+    scene::ViewLayout layout{options.width, options.height};
+    change(layout);
+    scene::SceneView other(*beside, patient, layout);
+    print_cost(part, all, [&](int i) { other.show(frames.at(i)); });
+  };
+  print_layout("framed on the work", [](scene::ViewLayout& l) { l.framed = true; });
+  print_layout("darker creases", [](scene::ViewLayout& l) { l.creases = true; });
 }
 
 /// Shares of a frame's time.

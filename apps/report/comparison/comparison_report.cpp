@@ -59,7 +59,7 @@ std::string thresholdSentence(const assess::Discrimination& answers) {
            (t.low ? ": " + percentMore(*t.low) + " or more (95 %)." : std::string("."));
   return "Three of four answers are right from a difference of about " + percentMore(t.ratio) +
          " on (95 % interval: " + (t.low ? percentMore(*t.low) : std::string("from nothing")) +
-         " to " + (t.high ? percentMore(*t.high) : std::string("unbounded")) + ").";
+         " to " + (t.high ? percentMore(*t.high) : std::string("no limit")) + ").";
 }
 
 void writeProperty(Html& html, const std::vector<assess::ComparisonTrial>& trials,
@@ -104,7 +104,7 @@ void writeAnswers(Html& html, const ComparisonReport& report) {
   html.element("p", {{"class", "muted small"}}, kAsItIs);
   const auto table = html.in("table", {{"class", "answers"}});
   const bool stroked = isFriction(report.trials);
-  writeHeads(html, {"Trial", "Answer", "First", "Second", stroked ? "Touched" : "Held",
+  writeHeads(html, {"Trial", "Answer", "First", "Second", stroked ? "Touches" : "Grips",
                     stroked ? "Pressed up to" : "Squeezed up to", "Time"});
   const auto body = html.in("tbody");
   for (const assess::ComparisonTrial& t : report.trials) {
@@ -112,8 +112,7 @@ void writeAnswers(Html& html, const ComparisonReport& report) {
     html.element("td", numberText(t));
     html.element("td", {{"class", t.answered() && !t.right() ? "wrong-word" : ""}}, summaryOf(t));
     for (const double factor : t.factors) html.element("td", fixed(100 * factor, 0) + " %");
-    html.element("td",
-                 std::to_string(t.touches[0]) + " and " + std::to_string(t.touches[1]) + " times");
+    html.element("td", std::to_string(t.touches[0]) + " and " + std::to_string(t.touches[1]));
     writeForceAndTime(html, t, report.too_hard_N);
   }
 }
@@ -151,7 +150,7 @@ void writeOrders(Html& html, const ComparisonReport& report) {
   html.element("p", {{"class", "muted small"}}, kAsItIs);
   const auto table = html.in("table", {{"class", "answers"}});
   writeHeads(html,
-             {"Trial", "Said", "True order", "Agreement", "Touched", "Pressed up to", "Time"});
+             {"Trial", "Said", "True order", "Agreement", "Touches", "Pressed up to", "Time"});
   const auto body = html.in("tbody");
   for (const assess::ComparisonTrial& t : report.trials) {
     const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});
@@ -161,8 +160,7 @@ void writeOrders(Html& html, const ComparisonReport& report) {
                  tau ? assess::orderText(t.order) : summaryOf(t));
     html.element("td", trueOrderText(t));
     html.element("td", tau ? fixed(*tau, 2) : "");
-    html.element("td",
-                 std::to_string(std::accumulate(t.touches.begin(), t.touches.end(), 0)) + " times");
+    html.element("td", std::to_string(std::accumulate(t.touches.begin(), t.touches.end(), 0)));
     writeForceAndTime(html, t, report.too_hard_N);
   }
 }
@@ -257,9 +255,9 @@ void writeComparisonChart(Html& html, const assess::Discrimination& answers, con
   const auto figure = html.in("figure", {{"class", "course"}});
   drawShares(html, answers, what, kWide);
   drawShares(html, answers, what, kNarrow);
-  html.element("figcaption", std::string("Right answers by how much ") + what +
-                                 " the one was; the bars are 95 % intervals (Wilson): where they "
-                                 "reach below the dotted line, it may have been chance.");
+  html.element("figcaption", std::string("Share of right answers, by how much ") + what +
+                                 " one of the two was. The bars are 95 % intervals (Wilson): where "
+                                 "one reaches below the dotted line, it may have been chance.");
 }
 
 namespace {

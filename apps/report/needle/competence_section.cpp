@@ -37,8 +37,8 @@ const char* cssOf(Mark mark) {
 std::string noErrorWords(const assess::TrialAssessment& trial) {
   const std::string none = "None of the six common errors of this procedure was made.";
   return trial.total > 0 ? none +
-                               " What was less than an error, but farther off than experts vary, "
-                               "costs points all the same; the score says how many."
+                               " Smaller faults, farther off than experts vary, still cost "
+                               "points; the score says how many."
                          : none;
 }
 

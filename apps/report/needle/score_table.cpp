@@ -113,8 +113,8 @@ constexpr Code kCodes[] = {
     {"COL_LUNG", "Scoring samples, 20 a second, in which the needle was in contact with the lung."},
     {"COL_RIB",
      "Contacts with ribs and skeleton, each counted again for every full second that it lasts; "
-     "scored as published, samples as above. Touching the clavicle lightly to find the way beneath "
-     "it does not count."},
+     "when scored as published, samples as above. Touching the clavicle lightly to find the way "
+     "beneath it does not count."},
     {"COL_ART", "The same for arteries."},
     {"COL_VEIN",
      "Contact with the vein other than the successful entry and aspiration; its back wall always "
@@ -124,8 +124,8 @@ constexpr Code kCodes[] = {
      "needle is turned."},
     {"PHASE_2",
      "Direction: deviation of the turned needle from the optimum. 1000 is as far as "
-     "experts vary; below it nothing is charged. The weight rises from there to 2000; scored as "
-     "published, it jumps at both."},
+     "experts vary; below it nothing is charged. The weight rises from there to 2000; when "
+     "scored as published, it jumps at both."},
     {"ECON_MEAN",
      "Economy of movement: mean distance of the needle from the optimal line while it is "
      "advanced."},

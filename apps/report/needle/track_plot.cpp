@@ -201,7 +201,7 @@ void writeTrack(Html& html, const NeedleViews& views,
                std::string("Crosses and the dashed line: as it is taught on this patient") +
                    (views.entry_acceptable > 0 ? "; circle: where experts go in" : "") +
                    ". Numbers: passes of the needle, where each went in and what it was aimed at "
-                   "when it was deepest; with a dashed rim, beyond the picture. In section: the "
+                   "when it was deepest. A dashed rim: beyond the picture. In section: the "
                    "tip's path, and the needle where each pass was deepest. The skin is drawn as "
                    "it lies untouched: it gives way under the needle before it is pierced.");
 }

@@ -75,7 +75,7 @@ void writeSubtaskTable(Html& html, const std::vector<assess::SubtaskDose>& doses
   {
     const auto head = html.in("thead");
     const auto row = html.in("tr");
-    for (const char* column : {"Part of the task", "On", "Of the time", "Times"})
+    for (const char* column : {"Part of the task", "Lasted", "Of the time", "Times"})
       html.element("th", {{"scope", "col"}}, column);
     if (cues)
       for (const char* column : {"Cues felt", "Added in all", "Added on average"})
@@ -88,7 +88,7 @@ void writeSubtaskTable(Html& html, const std::vector<assess::SubtaskDose>& doses
 
 void writeSubtaskNote(Html& html) {
   html.element("p", {{"class", "muted small"}},
-               "On: the hand was doing that part of the task, by its place, its speed and its "
+               "Lasted: while the hand did that part of the task, by its place, its speed and its "
                "contact; parts may overlap. Cues felt: while a cue was pushing; no such column "
                "where none was. Added in all: force times time, 1 N s is one "
                "newton for one second. Added on average: while a cue was felt.");

@@ -71,7 +71,7 @@ void writeAdvice(Html& html, const assess::PalpationAssessment& trial) {
   if (trial.facts.outcome == Outcome::voided) return;
   html.element("h3", "What to do better");
   if (trial.advice.empty()) {
-    html.element("p", "Nothing that these measures show.");
+    html.element("p", "These measures show nothing to do better.");
     return;
   }
   const auto list = html.in("ol", {{"class", "advice"}});
@@ -158,7 +158,7 @@ std::string numberOf(int n, const char* one, const char* many) {
 
 /// "71 %" and "95 % interval: 36 % to 92 %".
 Fact shareFact(const char* name, int hits, int of, const std::string& what) {
-  if (of == 0) return {name, "–", "nothing to tell it from"};
+  if (of == 0) return {name, "–", "no case here tells it"};
   const statistics::ShareInterval share = statistics::wilson(hits, of);
   const auto percent = [](double value) { return fixed(100 * value, 0) + " %"; };
   return {name, percent(share.share),
@@ -217,9 +217,9 @@ Fact judgementFact(const assess::PalpationJudgement& judgement,
 Fact discriminationFact(const assess::PalpationJudgement& judgement) {
   const statistics::Detections& quarters = judgement.quarters;
   if (judgement.cases < assess::kEnoughCases)
-    return {"d′", "–", "said from " + std::to_string(assess::kEnoughCases) + " cases on"};
+    return {"d′", "–", "given from " + std::to_string(assess::kEnoughCases) + " cases on"};
   const statistics::Discrimination told = statistics::discriminationOf(quarters);
-  if (!std::isfinite(told.d)) return {"d′", "–", "nothing to tell it from"};
+  if (!std::isfinite(told.d)) return {"d′", "–", "no case here tells it"};
   return {"d′", fixed(told.d, 1),
           std::to_string(quarters.signals) + " quarters with a lump told from " +
               std::to_string(quarters.rest) +
@@ -251,8 +251,8 @@ void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials,
               std::to_string(sums.passed) + " of " + numberOf(sums.trials, "trial", "trials"), ""},
              judgementFact(judgement, standard)});
   std::string note =
-      "The intervals take all lumps, and all quarters, as independent of each other: the doubt is "
-      "larger than they say.";
+      "The intervals take all lumps, and all quarters, as independent of each other. In truth the "
+      "doubt is larger.";
   if (sums.left_out > 0)
     note = numberOf(sums.left_out, "trial is", "trials are") +
            " not counted here: void, not finished, or not scored. " + note;
@@ -276,7 +276,7 @@ void writePalpationGlossary(Html& html) {
        "there were no more false alarms than the task allows. One trial passes or fails nobody."},
       {"d′",
        "How well quarters with a lump are told from clear ones, whichever way doubt is settled: "
-       "marking everything finds every lump and raises it not at all."},
+       "marking everything finds every lump but does not raise it."},
       {"Closer look", "Several presses about one place, in contrast to the search, which goes on."},
       {"95 % interval", "What the true share may well be, as few trials tell little (Wilson)."}};
   html.element("h2", "What these words mean");

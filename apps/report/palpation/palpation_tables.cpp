@@ -123,7 +123,7 @@ std::vector<Fact> forceFigures(const assess::PalpationScore& s,
           {"Too hard", percentText(s.too_hard),
            "of the time of touching: above " + trimmed(rules.too_hard, 2) + " N"},
           {"Force of closer looks", s.closer_force > 0 ? fixed(s.closer_force, 2) + " times" : "–",
-           s.closer_force > 0 ? "that of the search; 1.15 is usual for those who find"
+           s.closer_force > 0 ? "the force of the search; 1.15 is usual for those who find"
                               : "no closer look was taken"}};
 }
 

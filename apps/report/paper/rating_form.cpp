@@ -63,8 +63,8 @@ std::string saidBySimulator(const RatingForm& form, const competence::ChecklistI
 void writeItems(Html& html, const RatingForm& form) {
   html.element("h2", form.checklist->title);
   html.element("p", {{"class", "small"}},
-               "Mark one box an item. Bold items are major. Judge what you saw, whatever the "
-               "simulator says.");
+               "Mark one box for each item. Bold items are major. Judge what you saw, whatever "
+               "the simulator says.");
   const auto table = html.in("table", {{"class", "form"}});
   {
     const auto row = html.in("tr");

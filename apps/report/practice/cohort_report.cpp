@@ -48,8 +48,8 @@ std::string commonWords(const std::vector<progress::CommonError>& errors) {
   for (std::size_t i = 0; i < std::min<std::size_t>(3, errors.size()); ++i)
     words += (i ? "; " : "") + std::string(errors[i].kind->words) + " in " +
              fixed(100 * errors[i].share.mean, 0) + " % of a trainee's trials (" +
-             std::to_string(errors[i].trainees_with) + " of " + std::to_string(errors[i].trainees) +
-             " trainees)";
+             std::to_string(errors[i].trainees_with) + " of " +
+             counted(errors[i].trainees, "trainee") + ")";
   return words + '.';
 }
 
@@ -57,8 +57,8 @@ std::string reliabilityWords(const progress::Series& group, const std::string& m
   const auto r = progress::reliabilityOf(group, metric);
   const std::string cases = std::to_string(progress::kFewestCases);
   if (!r)
-    return "can be told from two trainees with " + cases +
-           " trials each on, who differ: nobody should pass or fail by these figures alone.";
+    return "takes two trainees or more who differ, each with at least " + cases +
+           " trials; until then nobody should pass or fail by these figures alone.";
   const std::string words = titleWithin(metric) + " over the last " + cases + " trials of " +
                             counted(r->trainees, "trainee") + ": ICC(3,k) " +
                             fixed(r->icc.value, 2) + " (95 % interval " + fixed(r->icc.low, 2) +
@@ -100,7 +100,7 @@ void writeCohortSummary(Html& html, const progress::Series& group,
             counted(trainees.size(), "trainee") + ", " +
                 counted(group.trials.size(), "scored trial") + '.');
   shortItem(html, "Success:",
-            std::to_string(successes) + " of " + std::to_string(group.trials.size()) + " trials; " +
+            std::to_string(successes) + " of " + counted(group.trials.size(), "trial") + "; " +
                 figureOf("success", success.mean) + " of a trainee's" +
                 intervalWords("success", success.interval) + '.');
   writeAttention(html, progress::whoNeedsAttention(group, rates), trainees.size());
@@ -130,7 +130,7 @@ void writeCompetences(Html& html, const progress::Series& group,
                         " % acceptable, " + trimmed(100 * rates.unacceptable, 1) +
                         " % unacceptable; none is established for this procedure. Fewer than " +
                         std::to_string(fewest) + " trials cannot certify anybody.");
-  DataTable table{"", {"Trainee", "Trials", "Failures", "CUSUM"}, {}, 3};
+  DataTable table{"", {"Trainee", "Trials", "Failures", "Standing (CUSUM)"}, {}, 3};
   for (const progress::PracticeView& own : trainees) {
     const std::vector<bool> failures = progress::failuresIn(own);
     const bool locked =
@@ -168,7 +168,7 @@ void writeCohortReport(CohortReport report, const std::filesystem::path& file) {
       report.group.empty() ? "All trainees" : "Group: " + report.group,
       {{"Trainees", std::to_string(trainees.size())},
        {"Trials", std::to_string(report.trials.size())},
-       {"Page of", report.made_utc.substr(0, 10)}},
+       {"As of", report.made_utc.substr(0, 10)}},
       "Intervals of the group are over trainees, since a trainee's trials are not independent. "
       "Reliability: Shrout and Fleiss, Psychol. Bull. 86, 1979.",
       report.software};

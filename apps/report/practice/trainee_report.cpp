@@ -41,7 +41,7 @@ void writeTraineeReport(const TraineeReport& report, const std::filesystem::path
                           {{"Group", report.group},
                            {"Experience", report.experience},
                            {"Trials", std::to_string(report.trials.size())},
-                           {"Page of", report.made_utc.substr(0, 10)}},
+                           {"As of", report.made_utc.substr(0, 10)}},
                           "Intervals of a trainee are over his or her trials: they say how sure "
                           "these figures are, not how the next patient goes.",
                           report.software};
@@ -125,7 +125,7 @@ std::string costSentence(const progress::Series& series) {
     words += std::string(i == 1 ? "; then " : " and ") + titleWithin(costs[i].metric) + ", " +
              fixed(costs[i].points, 0);
   return words + " (means of the last " +
-         std::to_string(std::min<std::size_t>(5, series.trials.size())) + " trials).";
+         counted(std::min<std::size_t>(5, series.trials.size()), "trial") + ").";
 }
 
 std::string missSentence(const progress::Series& series) {

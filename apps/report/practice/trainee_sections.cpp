@@ -42,7 +42,7 @@ std::string competenceWords(const progress::Series& series, const progress::Comp
   if (c.reached)
     return "The acceptable rate was accepted at trial " + std::to_string(*c.reached) + " (" +
            series.trials[*c.reached - 1].started_utc.substr(0, 10) +
-           ") and no unacceptable one was found since.";
+           ") and no unacceptable one has been found since.";
   std::string words =
       c.lost ? "The unacceptable rate was found at trial " + std::to_string(*c.lost) + ". "
              : "Undecided after " + done + ". ";
@@ -132,7 +132,7 @@ void writeErrorSection(Html& html, const progress::Series& series) {
     html.element("p", "None of the errors that figures can tell happened.");
     return;
   }
-  DataTable table{"", {"Error", "Trials", "Last five", "Against it"}, {}, 3};
+  DataTable table{"", {"Error", "Trials", "Last five", "What helps"}, {}, 3};
   for (const progress::ErrorCount& e : errors)
     table.rows.push_back(
         {e.kind->words, std::to_string(e.all.with) + " of " + std::to_string(e.all.of),

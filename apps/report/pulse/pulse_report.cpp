@@ -20,8 +20,8 @@ svg .dot-share{fill:var(--blue);stroke:var(--card);stroke-width:2}
 )css";
 
 constexpr const char* kPulseSource =
-    "Counting for 30 seconds: A. D. Hollerbach, N. V. Sneed, Heart Lung 19, 1990. The truth of a "
-    "count are the beats that were delivered in that time.";
+    "Counting for 30 seconds: A. D. Hollerbach, N. V. Sneed, Heart Lung 19, 1990. A count "
+    "is compared with the beats that were delivered in that time.";
 
 bool pulseCounts(const assess::PulseTrial& trial) {
   return training::countsAsScored(trial.role, trial.outcome);
@@ -97,7 +97,7 @@ void writePulseChecklist(Html& html, const PulseReport& report,
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", "What a good examiner does");
   const auto table = html.in("table", {{"class", "answers"}});
-  writePulseHeads(html, {"", "Done", "Where it was not, last time"});
+  writePulseHeads(html, {"", "Done", "Why not, the last time"});
   const auto body = html.in("tbody");
   std::vector<std::vector<assess::PulseItem>> all;
   for (const assess::PulseTrial& trial : trials) all.push_back(pulseChecklist(trial, report.rules));
@@ -197,9 +197,9 @@ void writeCountChart(Html& html, const PulseReport& report) {
   drawCounts(html, report, shown, kWide);
   drawCounts(html, report, shown, kNarrow);
   html.element("figcaption",
-               "Beats a minute as they were counted (up) over those delivered (to the right), a "
-               "dot a trial. On the line both are equal; between the dotted lines the count is "
-               "right.");
+               "Beats a minute as they were counted (up) over those delivered (to the right), "
+               "one dot for each trial. On the line both are equal; between the dotted lines the "
+               "count is right.");
 }
 
 void writePulseCsv(const std::string& user_id, const std::vector<assess::PulseTrial>& trials,

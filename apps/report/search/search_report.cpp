@@ -49,7 +49,6 @@ void writeSearchMain(Html& html, const SearchReport& report) {
   const auto main = html.in("main");
   writeSearchFindings(html, report.trials);
   writeSearchTimes(html, report.trials);
-  writeDoses(html, report);
   writeEpisodes(html, report);
   if (report.figures) writeSearchFigures(html, *report.figures);
   if (!report.pictures.empty()) {
@@ -57,7 +56,7 @@ void writeSearchMain(Html& html, const SearchReport& report) {
     writePictures(html, report.pictures, PicturesOf::session);
   }
   writeSessionEnd(
-      html, report, [] {}, [&] { writeSearchGlossary(html); });
+      html, report, [&] { writeDoses(html, report); }, [&] { writeSearchGlossary(html); });
 }
 
 void writeSearchPage(Html& html, const SearchReport& report) {
