@@ -13,9 +13,11 @@ template <class Number>
 bool readNext(const std::string& line, std::size_t* comma, Number* number) {
   if (*comma == std::string::npos) return false;
   const char* const end = line.data() + line.size();
-  const auto [stop, problem] = std::from_chars(line.data() + *comma + 1, end, *number);
+  const std::size_t digits = line.find_first_not_of(' ', *comma + 1);
+  if (digits == std::string::npos) return false;
+  const auto [stop, problem] = std::from_chars(line.data() + digits, end, *number);
   *comma = line.find(',', *comma + 1);
-  return problem == std::errc() && (stop == end || *stop == ',');
+  return problem == std::errc() && (stop == end || *stop == ',' || *stop == '\r');
 }
 
 }  // namespace
@@ -30,8 +32,7 @@ std::vector<FilmPicture> filmTable(const std::filesystem::path& film) {
     FilmPicture picture;
     std::size_t comma = line.find(',');
     if (!readNext(line, &comma, &picture.t_ns) ||
-        (has_offset && !readNext(line, &comma, &picture.offset)) ||
-        (!pictures.empty() && picture.t_ns <= pictures.back().t_ns))
+        (has_offset && !readNext(line, &comma, &picture.offset)))
       break;
     pictures.push_back(picture);
   }

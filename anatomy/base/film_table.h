@@ -13,8 +13,9 @@ struct FilmPicture {
   std::uint64_t offset = 0;  ///< of its first byte in the film, in a table that has this column
 };
 
-/// In the film's order, up to the first line that tells no such thing or no later time: the last
-/// one of a killed session. Empty where there is no table.
+/// In the film's order, up to the first line that tells no such thing, as the last one of a killed
+/// session may. Times are what the camera said: they may stand still or go back. Empty where there
+/// is no table.
 std::vector<FilmPicture> filmTable(const std::filesystem::path& film);
 
 }  // namespace palpa

@@ -75,6 +75,7 @@ ReplayStage stageFor(const evidence::RecordedShow& recorded, scene::Display disp
   layout.height = place.height;
   if (stage.context->interactive()) layout.text_scale = scene::textScale();
   layout.fixed_views = recorded.fixedViews() ? scene::FixedViews::three : scene::FixedViews::none;
+  layout.creases = scene::affordsCreases(stage.context->renderer());
   if (recorded.pictures()) layout.inset = scene::Inset::camera;
   stage.view = std::make_unique<scene::SceneView>(*stage.context, recorded.patient(), layout);
   return stage;

@@ -11,7 +11,7 @@
 namespace palpa::console {
 
 /// Lets trainees see their own results on a device of their own: the educator shows somebody a PIN,
-/// who types it there. A PIN is a million to one, opens once, within ten minutes; after five wrong
+/// who types it there. A PIN is a million to one, works once, within ten minutes; after five wrong
 /// ones an address waits a minute, after fifty from anywhere within ten minutes no PIN that was
 /// shown opens any more. What it opens ends after twelve hours, with the console, or when its owner
 /// leaves. Any thread.

@@ -202,7 +202,7 @@ json Sessions::described(const std::string& id, const fs::path& folder) {
 json Sessions::outcomeIn(const fs::path& folder, const json& described, int* read) {
   json facts = factsOf(folder);
   if (described["state"] != "finished" || described["blind"] == true) return nullptr;
-  if (facts.contains("outcome")) return facts["outcome"];
+  if (facts.contains("outcome") && facts["outcome"].contains("word")) return facts["outcome"];
   if (--*read < 0) return nullptr;  // the next time
   try {
     facts["outcome"] = outcomeOf(trialsIn(resultsIn(folder) / "session.palpa", false));

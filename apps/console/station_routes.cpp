@@ -97,7 +97,10 @@ bool takesAll(const station::Station& station) {
 }
 
 json calibration(Console& c, StationKind kind) {
+  const char* const blocked =
+      c.sessions.oneRuns() ? "A session is running. Calibrate when it is over." : "";
   json all{{"job", c.jobs.workingOn("calibrate")},
+           {"blocked", blocked},
            {"kind", nameOf(kind)},
            {"stations", json::array()},
            {"steps", json::array()},

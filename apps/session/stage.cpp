@@ -106,7 +106,8 @@ DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& pa
   stage.context = scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
                                        place, "Palpa");
   const std::string renderer = stage.context->renderer();
-  layout.creases = !scene::drawsOnProcessor(renderer);
+  // Not in an exam: what is near to what shall be felt, on whatever computer it is held.
+  layout.creases = !presentation::unaided(shown) && scene::affordsCreases(renderer);
   if (window) stage.renderer = renderer;
   stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
   return stage;

@@ -96,11 +96,21 @@ namespace {
 
 constexpr double kUsualRate = 30;
 
+/// As far as time goes on in it.
+std::vector<FilmPicture> timesOf(const std::filesystem::path& film) {
+  std::vector<FilmPicture> table = filmTable(film);
+  const auto back =
+      std::adjacent_find(table.begin(), table.end(),
+                         [](const auto& one, const auto& next) { return next.t_ns <= one.t_ns; });
+  if (back != table.end()) table.erase(back + 1, table.end());
+  return table;
+}
+
 }  // namespace
 
 struct VideoFile::Impl {
   explicit Impl(const std::filesystem::path& file)
-      : path(file), film(makeVideoCapture()), table(filmTable(file)) {
+      : path(file), film(makeVideoCapture()), table(timesOf(file)) {
     film->open(file.string(), cv::CAP_FFMPEG);
   }
   std::filesystem::path path;

@@ -35,7 +35,7 @@ function standing(all) {
     : all.verdict || "not judged yet";
 }
 
-function step(one, at, made, run) {
+function step(one, at, made, run, why_not) {
   return h(
     "li",
     { class: "step" },
@@ -47,8 +47,10 @@ function step(one, at, made, run) {
       h("p", {}, one.what || ""),
       h("p", { class: "row tight" }, age(made)),
     ),
-    button(["Run this step", h("span", { class: "unseen" }, `: ${one.title || one.id}`)], () =>
-      run(one.id),
+    button(
+      ["Run this step", h("span", { class: "unseen" }, `: ${one.title || one.id}`)],
+      () => run(one.id),
+      { disabled: Boolean(why_not) },
     ),
   );
 }
@@ -144,16 +146,27 @@ export async function show({ root, life, open, query }) {
   open("Calibrate");
   const choice = h("div", {}),
     head = h("div", {}),
-    work = h("div", { id: "calibration-work" }),
+    work = h("div", { id: "calibration-work", tabindex: "-1" }),
     list = h("div", {});
   root.append(choice, head, work, list);
   let kind = query.get("station") || "needle",
-    stationChoice = null;
+    stationChoice = null,
+    running = false;
+  const watch = (job) => {
+    running = true;
+    follow(life, job, work, () => {
+      running = false;
+      draw();
+    });
+  };
   const run = async (id) => {
+    put(work); // what another one has left there says nothing of this one
     const started = await post("/api/calibration", { kind, step: id });
     window.scrollTo(0, 0);
     announce("The calibration has started.");
-    follow(life, started.job, work, draw);
+    watch(started.job);
+    await draw();
+    work.focus({ preventScroll: true });
   };
   const draw = async () => {
     const all = await get(`/api/calibration?kind=${encodeURIComponent(kind)}`);
@@ -163,6 +176,7 @@ export async function show({ root, life, open, query }) {
     } else {
       stationChoice = chooser(stations, kind, (other) => {
         kind = other;
+        if (!running) put(work);
         draw();
       });
       put(choice, stationChoice.node);
@@ -179,6 +193,9 @@ export async function show({ root, life, open, query }) {
           (all.all ? "" : " The other steps need points to touch, which this station lacks."),
       ),
     );
+    const why_not = running
+      ? "A calibration is running. The next one can begin when it is over."
+      : all.blocked;
     const others = (all.calibrations || []).filter(
       (c) => !(all.steps || []).some((s) => s.id === c.name),
     );
@@ -188,12 +205,18 @@ export async function show({ root, life, open, query }) {
         "div",
         { class: "row between" },
         h("h2", {}, "Steps"),
-        all.all ? button("Run all steps", () => run("all"), { class: "primary" }) : null,
+        all.all
+          ? button("Run all steps", () => run("all"), {
+              class: "primary",
+              disabled: Boolean(why_not),
+            })
+          : null,
       ),
+      why_not ? h("p", { class: "hint" }, why_not) : null,
       h(
         "ol",
         { class: "steps" },
-        (all.steps || []).map((one, at) => step(one, at, made.get(one.id), run)),
+        (all.steps || []).map((one, at) => step(one, at, made.get(one.id), run, why_not)),
       ),
       others.length
         ? [
@@ -209,5 +232,9 @@ export async function show({ root, life, open, query }) {
     return all;
   };
   const all = await draw();
-  if (all.job) follow(life, all.job, work, draw);
+  if (all.job) {
+    watch(all.job);
+    await draw();
+  }
+  if (all.blocked) life.every(4000, async () => Boolean((await draw()).blocked));
 }

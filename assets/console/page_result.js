@@ -29,7 +29,9 @@ function verdict(session) {
     return ["note", `The session ended without a report. ${session.message || ""}`];
   if (session.blind)
     return ["none", `${plural(results.length, "trial")} recorded; the study is blind.`];
-  const counting = results.filter((r) => r.outcome !== "void" && r.counts !== false),
+  const counting = results.filter(
+      (r) => !["void", "interrupted"].includes(r.outcome) && r.counts !== false,
+    ),
     good = counting.filter(hasReached);
   if (counting.length === 0)
     return [
@@ -44,7 +46,7 @@ function verdict(session) {
   return [
     good.length === counting.length ? "good" : "note",
     `Of ${counting.length} trials that count, ${good.length} ` +
-      `${counting[0].goal?.called || "succeeded"}.`,
+      `${counting.find((r) => r.goal)?.goal.called || "succeeded"}.`,
   ];
 }
 

@@ -177,7 +177,11 @@ export function table(caption, heads, rows, hideCaption = false) {
             row.map((cell, at) =>
               at === 0
                 ? h("th", { scope: "row", role: "rowheader" }, cell)
-                : h("td", { role: "cell", "data-head": heads[at] }, h("div", {}, cell)),
+                : h(
+                    "td",
+                    { role: "cell", "data-head": heads[at]?.textContent ?? heads[at] },
+                    h("div", {}, cell),
+                  ),
             ),
           ),
         ),

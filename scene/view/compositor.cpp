@@ -6,23 +6,21 @@
 #include <vtkOpenGLQuadHelper.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLShaderCache.h>
-#include <vtkOpenGLState.h>
 #include <vtkProp.h>
 #include <vtkRenderer.h>
 #include <vtkShaderProgram.h>
 #include <vtkTextureObject.h>
-#include <vtk_glew.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "scene/actors/camera_picture.h"
 #include "scene/view/compositor_glsl.h"
 #include "scene/view/creases.h"
+#include "scene/view/flat_pass.h"
 
 namespace palpa::scene {
 namespace {

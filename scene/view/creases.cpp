@@ -49,12 +49,13 @@ void main() {
   for (int i = 0; i < kPlaces; ++i) {
     float share = (float(i) + 0.5) / float(kPlaces), angle = 2.3999632 * float(i) + turn;
     vec2 at = texCoord + reach * (radius * share / far) * vec2(cos(angle), sin(angle));
-    vec3 v = placeAt(clamp(at, vec2(0.0), vec2(1.0))) - p;
+    at = (floor(clamp(at, vec2(0.0), vec2(0.9999)) / texel) + 0.5) * texel;  // where a depth is
+    vec3 v = placeAt(at) - p;
     float vv = dot(v, v), within = max(0.0, square - vv);
     sum += within * within * within * max(0.0, dot(v, normal) - 1e-4 * far) / (vv + 1e-7);
   }
-  float lit = max(0.0, 1.0 - strength * 5.0 * sum / (square * square * square * float(kPlaces)));
-  gl_FragData[0] = vec4(lit);
+  float whole = float(kPlaces) * square * square * radius;
+  gl_FragData[0] = vec4(max(0.0, 1.0 - strength * 5.0 * sum / whole));
 }
 )";
 
@@ -70,7 +71,7 @@ void main() {
   float here = placeAt(texCoord).z, sum = 0.0, weights = 0.0;
   for (int row = -2; row < 2; ++row)
     for (int column = -2; column < 2; ++column) {
-      vec2 at = texCoord + (vec2(column, row) + 0.5) * texel;
+      vec2 at = texCoord + vec2(column, row) * texel;
       float weight = max(1e-4, 1.0 - abs(placeAt(at).z - here) / radius);
       sum += weight * textureLod(lit, at, 0.0).r;
       weights += weight;
@@ -87,8 +88,10 @@ void Creases::prepare(vtkOpenGLRenderWindow& window, const FlatPlace& place) {
     darken_ = flatQuad(window, {kDepths, kDarken});
     for (vtkTextureObject* texture : {depths_.Get(), lit_.Get(), shaded_.Get()})
       keepInside(*texture, window, vtkTextureObject::ClampToEdge);
-    depths_->SetMinificationFilter(vtkTextureObject::Nearest);
-    depths_->SetMagnificationFilter(vtkTextureObject::Nearest);
+    for (vtkTextureObject* texture : {depths_.Get(), lit_.Get()}) {
+      texture->SetMinificationFilter(vtkTextureObject::Nearest);
+      texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+    }
     aside_->SetContext(&window);
   }
   fit(*lit_, place.width, place.height);
@@ -147,6 +150,7 @@ vtkTextureObject& Creases::shade(vtkTextureObject& drawn, const FlatPlace& place
 void Creases::release(vtkWindow* window) {
   for (vtkTextureObject* texture : {depths_.Get(), lit_.Get(), shaded_.Get()})
     texture->ReleaseGraphicsResources(window);
+  aside_->ReleaseGraphicsResources(window);
   for (FlatQuad* quad : {&obscure_, &darken_}) {
     if (*quad) (*quad)->ReleaseGraphicsResources(window);
     quad->reset();

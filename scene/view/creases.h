@@ -15,7 +15,7 @@ namespace palpa::scene {
 /// drawn, of n places about p within r (m) of it, v from p to what is seen there, N the surface's
 /// normal:
 ///
-///     lit = max(0, 1 - 5 s / (n r^6) sum max(0, r^2 - v.v)^3 max(0, v.N - z / 10^4) / (v.v + e))
+///     lit = max(0, 1 - 5 s / (n r^5) sum max(0, r^2 - v.v)^3 max(0, v.N - z / 10^4) / (v.v + e))
 ///
 /// averaged over 4 x 4 pixels of about the same depth; colours are multiplied by it. What a
 /// graphics card has time for, and a processor has not (`frame_cost` of `palpa bench render`).

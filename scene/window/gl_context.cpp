@@ -70,8 +70,12 @@ std::string GlContextProvider::renderer() {
 }
 
 bool drawsOnProcessor(const std::string& renderer) {
-  return renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe") ||
+  return renderer.find("llvmpipe") != std::string::npos || renderer.starts_with("softpipe") ||
          renderer.find("Software Rasterizer") != std::string::npos;
+}
+
+bool affordsCreases(const std::string& renderer) {
+  return !renderer.empty() && !drawsOnProcessor(renderer);
 }
 
 void GlContextProvider::neverWait() {

@@ -42,6 +42,8 @@ class GlContextProvider {
 };
 /// Whether this renderer is a program that draws on the processor: Mesa's.
 bool drawsOnProcessor(const std::string& renderer);
+/// Whether there is time for `ViewLayout::creases`: a graphics card draws.
+bool affordsCreases(const std::string& renderer);
 /// By what is drawn from now on in this process: "auto", "none" (the processor), or the number of a
 /// graphics card (gpus()). A card is chosen for what is drawn without a window; a window is drawn
 /// by the X server's. Throws UsageError.

@@ -31,11 +31,18 @@ TEST(FilmTable, OtherColumnsAreNoOffset) {
 }
 
 TEST(FilmTable, EndsWhereItTellsNoLongerWhatItShould) {
-  for (const char* last : {"1", "1,", "1,30", "1,x,9", "1,30x,9", "1,30,", "1,10,9", "1,9,9", ""})
+  for (const char* last : {"1", "1,", "1,30", "1,x,9", "1,30x,9", "1,30,", "1,30 4,9", ""})
     EXPECT_EQ(
         tableOf(std::string("number,t_exposure_ns,offset\n0,10,0\n") + last + "\n2,40,20\n").size(),
         1u)
         << last;
+}
+
+TEST(FilmTable, TakesSpacesOtherLineEndsAndAClockThatWentBack) {
+  const auto pictures = tableOf("number,t_exposure_ns\r\n0, 100\r\n1, 90\r\n");
+  ASSERT_EQ(pictures.size(), 2u);
+  EXPECT_EQ(pictures[0].t_ns, 100);
+  EXPECT_EQ(pictures[1].t_ns, 90);
 }
 
 TEST(FilmTable, WhereThereIsNoneIsEmpty) {

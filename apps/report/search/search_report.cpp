@@ -49,6 +49,10 @@ void writeSearchMain(Html& html, const SearchReport& report) {
   const auto main = html.in("main");
   writeSearchFindings(html, report.trials);
   writeSearchTimes(html, report.trials);
+  const bool augmented =
+      std::any_of(report.trials.begin(), report.trials.end(),
+                  [](const auto& trial) { return trial.mode == assess::SearchMode::augmented; });
+  if (augmented) writeDoses(html, report);
   writeEpisodes(html, report);
   if (report.figures) writeSearchFigures(html, *report.figures);
   if (!report.pictures.empty()) {
@@ -56,7 +60,11 @@ void writeSearchMain(Html& html, const SearchReport& report) {
     writePictures(html, report.pictures, PicturesOf::session);
   }
   writeSessionEnd(
-      html, report, [&] { writeDoses(html, report); }, [&] { writeSearchGlossary(html); });
+      html, report,
+      [&] {
+        if (!augmented) writeDoses(html, report);
+      },
+      [&] { writeSearchGlossary(html); });
 }
 
 void writeSearchPage(Html& html, const SearchReport& report) {
