@@ -108,6 +108,7 @@ TEST(Jobs, TheSameWorkIsDoneOnceAtATime) {
 TEST(Jobs, WhatSomebodyLooksAtGoesBeforeWhatWasLeft) {
   const Workshop w("jobs-order");
   const std::string running = w.jobs->add(waiting("a"));
+  EXPECT_TRUE(w.says(running, "3 of 20")) << "it is under way";
   EXPECT_EQ(w.jobs->ask(waiting("left"))["state"], "working");
   const std::string looked_at = w.jobs->ask(report("looked at"))["id"];
   w.jobs->stop(running);

@@ -133,7 +133,7 @@ TEST_F(TheEnd, ASessionThatIsKilledIsSaidInWords) {
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all.back().data["kind"], "end");
   EXPECT_EQ(all.back().data["state"], "interrupted");
-  EXPECT_NE(all.back().data["message"].get<std::string>().find("killed"), std::string::npos)
+  EXPECT_NE(all.back().data["message"].get<std::string>().find("was stopped"), std::string::npos)
       << all.back().data.dump();
   const Answer one = console().get("/api/sessions/" + id);
   EXPECT_EQ(one.status, 200);
