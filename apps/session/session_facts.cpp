@@ -1,5 +1,6 @@
 #include "apps/session/session_facts.h"
 #include "apps/session/session_records.h"
+#include "apps/session/stage.h"
 
 #include <cstdarg>
 #include <cstdio>
@@ -147,26 +148,8 @@ std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy) {
           {"What is changed", taxonomy.property, ""}};
 }
 
-/// How steadily it drew, and what: of a session in real time.
-std::vector<report::Fact> pictureFacts(const SessionRun& result) {
-  std::vector<report::Fact> facts;
-  if (result.renderer.empty()) return facts;
-  for (const runtime::Lateness& late : result.lateness)
-    if (late.name == "scene" && late.steps > 0)
-      facts.push_back(
-          {"Pictures drawn",
-           format("%llu; one takes %.0f ms (median), 99 %% below %.0f ms, the longest "
-                  "%.0f ms",
-                  static_cast<unsigned long long>(late.steps), 1e-3 * late.cost.median_us,
-                  1e-3 * late.cost.p99_us, 1e-3 * late.cost.max_us),
-           (scene::drawsOnProcessor(result.renderer) ? "on the processor, no graphics card: "
-                                                     : "on ") +
-               result.renderer});
-  return facts;
-}
-
 std::vector<report::Fact> runNotes(const SessionRun& result) {
-  std::vector<report::Fact> facts = pictureFacts(result);
+  std::vector<report::Fact> facts = drawingFacts(result.renderer, result.lateness);
   for (const runtime::Lateness& late : result.lateness)
     if (late.name == "haptic")
       facts.push_back({"Lateness of the haptic loop",

@@ -9,6 +9,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/os/file_access.h"
+#include "apps/session/session_facts.h"
 
 namespace palpa::session {
 namespace {
@@ -111,6 +112,23 @@ DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& pa
   if (window) stage.renderer = renderer;
   stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
   return stage;
+}
+
+std::vector<report::Fact> drawingFacts(const std::string& renderer,
+                                       const std::vector<runtime::Lateness>& lateness) {
+  std::vector<report::Fact> facts;
+  if (renderer.empty()) return facts;
+  for (const runtime::Lateness& late : lateness)
+    if (late.name == "scene" && late.steps > 0)
+      facts.push_back(
+          {"Pictures drawn",
+           format("%llu; one takes %.0f ms (median), 99 %% below %.0f ms, the longest "
+                  "%.0f ms",
+                  static_cast<unsigned long long>(late.steps), 1e-3 * late.cost.median_us,
+                  1e-3 * late.cost.p99_us, 1e-3 * late.cost.max_us),
+           (scene::drawsOnProcessor(renderer) ? "on the processor, no graphics card: " : "on ") +
+               renderer});
+  return facts;
 }
 
 report::Fact HeadStage::fact() const {

@@ -2,8 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "apps/headset/headset_view.h"
+#include "apps/runtime/executive.h"
 #include "apps/session/session_devices.h"
 #include "apps/session/session_options.h"
 #include "scene/view/scene_view.h"
@@ -33,6 +35,10 @@ struct HeadStage {
 
   report::Fact fact() const;  ///< for the report
 };
+
+/// How steadily it drew, and what: of a session in real time, before a window; else nothing.
+std::vector<report::Fact> drawingFacts(const std::string& renderer,
+                                       const std::vector<runtime::Lateness>& lateness);
 
 /// Without a headset the session goes on on the desktop, and standard error says so; throws only
 /// where a person then has nothing to see. The desktop's window decides the kind of context, and

@@ -14,6 +14,37 @@ std::string hint(haptics::SafetyCause cause) {
   return "";
 }
 
+/// What is said while it lasts, with what to do, and afterwards; empty: nothing is said.
+struct CauseWords {
+  std::string now, advice, past;
+};
+
+CauseWords wordsOf(haptics::SafetyCause cause) {
+  using haptics::SafetyCause;
+  switch (cause) {
+    case SafetyCause::energy:
+      return {"the device gave too much energy", "R re-arms", "the device gave too much energy"};
+    case SafetyCause::silent_device:
+      return {"the device is silent", "Look at its cable", "the device was silent"};
+    case SafetyCause::stale_geometry:
+    case SafetyCause::watchdog:
+      return {"the computer cannot keep up", "", "the computer could not keep up"};
+    case SafetyCause::corrupt_geometry:
+      return {"damaged geometry was refused", "", "damaged geometry was refused"};
+    case SafetyCause::no_sensor:
+      return {"the force sensor is silent, overloaded or broken", "Look at its cable",
+              "the force sensor gave no usable reading"};
+    case SafetyCause::not_finite:
+    case SafetyCause::jump:
+    case SafetyCause::clock:
+      return {
+          std::string("the device's readings cannot be believed (") + haptics::name(cause) + ")",
+          "", "the device gave no usable reading"};
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 std::string overlayText(const Mat3& covariance) {
@@ -31,50 +62,14 @@ haptics::SafetyCause worse(haptics::SafetyCause first, haptics::SafetyCause seco
 }
 
 std::string forceText(haptics::SafetyCause cause) {
-  using haptics::SafetyCause;
-  switch (cause) {
-    case SafetyCause::energy:
-      return "Force is off: the device gave too much energy. R re-arms";
-    case SafetyCause::silent_device:
-      return "Force is off: the device is silent. Look at its cable";
-    case SafetyCause::stale_geometry:
-    case SafetyCause::watchdog:
-      return "Force is off: the computer cannot keep up";
-    case SafetyCause::corrupt_geometry:
-      return "Force is off: damaged geometry was refused";
-    case SafetyCause::no_sensor:
-      return "Force is off: the force sensor is silent, overloaded or broken. Look at its cable";
-    case SafetyCause::not_finite:
-    case SafetyCause::jump:
-    case SafetyCause::clock:
-      return std::string("Force is off: the device's readings cannot be believed (") +
-             haptics::name(cause) + ")";
-    default:
-      return "";
-  }
+  const CauseWords words = wordsOf(cause);
+  if (words.now.empty()) return "";
+  return "Force is off: " + words.now + (words.advice.empty() ? "" : ". " + words.advice);
 }
 
 std::string whyText(haptics::SafetyCause cause) {
-  using haptics::SafetyCause;
-  switch (cause) {
-    case SafetyCause::energy:
-      return "the device gave too much energy";
-    case SafetyCause::silent_device:
-      return "the device was silent";
-    case SafetyCause::stale_geometry:
-    case SafetyCause::watchdog:
-      return "the computer could not keep up";
-    case SafetyCause::corrupt_geometry:
-      return "damaged geometry was refused";
-    case SafetyCause::no_sensor:
-      return "the force sensor gave no usable reading";
-    case SafetyCause::not_finite:
-    case SafetyCause::jump:
-    case SafetyCause::clock:
-      return "the device gave no usable reading";
-    default:
-      return haptics::name(cause);
-  }
+  const CauseWords words = wordsOf(cause);
+  return words.now.empty() ? haptics::name(cause) : words.past;
 }
 
 std::string numberOf(const TrialStatus& status, const char* called) {

@@ -1,8 +1,8 @@
 // Calibration step by step: what each one is, how old it is, run it,
 // watch it, read what came of it.
-import { get, post, url } from "./api.js";
+import { get, list as listed, post, url } from "./api.js";
 import { announce, h, put } from "./dom.js";
-import { day, plural } from "./format.js";
+import { day, isOn, plural } from "./format.js";
 import { badge, button, notice, progress, radios, simulatedBadge } from "./parts.js";
 import { reportFrame } from "./report_frame.js";
 
@@ -151,7 +151,8 @@ export async function show({ root, life, open, query }) {
   root.append(choice, head, work, list);
   let kind = query.get("station") || "needle",
     stationChoice = null,
-    running = false;
+    running = false,
+    blocked = false; // a session is on
   const watch = (job) => {
     running = true;
     follow(life, job, work, () => {
@@ -193,6 +194,7 @@ export async function show({ root, life, open, query }) {
           (all.all ? "" : " The other steps need points to touch, which this station lacks."),
       ),
     );
+    blocked = Boolean(all.blocked);
     const why_not = running
       ? "A calibration is running. The next one can begin when it is over."
       : all.blocked;
@@ -236,5 +238,7 @@ export async function show({ root, life, open, query }) {
     watch(all.job);
     await draw();
   }
-  if (all.blocked) life.every(4000, async () => Boolean((await draw()).blocked));
+  life.every(4000, async () => {
+    if ((await listed("/api/sessions")).some(isOn) !== blocked) await draw();
+  });
 }

@@ -11,7 +11,6 @@ namespace palpa::scene {
 namespace {
 
 constexpr float kRadius = 0.012F;  // m: between ribs, under the clavicle, at a tool on the skin
-constexpr float kStrength = 1.0F;
 
 constexpr const char* kDepths = R"(//VTK::System::Dec
 in vec2 texCoord;
@@ -28,7 +27,7 @@ vec3 placeAt(vec2 at) {
 /// Places on a spiral, turned from pixel to pixel in a pattern of 4 x 4.
 constexpr const char* kObscure = R"(
 uniform vec2 texel, reach;  // reach: of a metre at a metre, in shares of the picture
-uniform float radius, strength;
+uniform float radius;
 const int kPlaces = 12;
 
 vec3 nearer(vec3 one, vec3 other) { return abs(one.z) < abs(other.z) ? one : other; }
@@ -55,7 +54,7 @@ void main() {
     sum += within * within * within * max(0.0, dot(v, normal) - 1e-4 * far) / (vv + 1e-7);
   }
   float whole = float(kPlaces) * square * square * radius;
-  gl_FragData[0] = vec4(max(0.0, 1.0 - strength * 5.0 * sum / whole));
+  gl_FragData[0] = vec4(max(0.0, 1.0 - 5.0 * sum / whole));
 }
 )";
 
@@ -128,9 +127,7 @@ vtkTextureObject& Creases::shade(vtkTextureObject& drawn, const FlatPlace& place
     return *quad.Program;
   };
   drawInto(*lit_, *aside_, window, [&] {
-    vtkShaderProgram& program = begin(*obscure_);
-    program.SetUniform2f("reach", reach);
-    program.SetUniformf("strength", kStrength);
+    begin(*obscure_).SetUniform2f("reach", reach);
     obscure_->Render();
   });
   drawn.Activate();
