@@ -1,5 +1,7 @@
 #include "apps/assess/dose_counter.h"
 
+#include <limits>
+
 namespace palpa::assess {
 
 DoseCounter::DoseCounter(const haptics::AugmentationPlan& plan,
@@ -11,14 +13,14 @@ DoseCounter::DoseCounter(const haptics::AugmentationPlan& plan,
     part_of_[i] = plan.each[i].subtask;
     any = any || (i < plan.count && part_of_[i] == haptics::kAnySubtask);
   }
-  if (any) doses_.push_back({"any part", 0, 0, 0, 0});
+  if (any) doses_.push_back({kAnyPart, 0, 0, 0, 0});
+  left_s_.assign(doses_.size(), std::numeric_limits<double>::infinity());
 }
 
 void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
   const double added_N = unpack(record.f_augmentation_D).norm();
   for (std::size_t s = 0; s < doses_.size(); ++s) {
-    const bool named = s < parts_, on = !named || (record.subtasks >> s & 1u),
-               was = named ? was_ >> s & 1u : started_;
+    const bool named = s < parts_, on = !named || (record.subtasks >> s & 1u);
     const std::size_t part = named ? s : haptics::kAnySubtask;
     bool felt = false;
     for (std::size_t i = 0; i < part_of_.size(); ++i)
@@ -26,15 +28,14 @@ void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
     SubtaskDose& dose = doses_[s];
     if (on) {
       dose.on_s += dt;
-      if (!was) ++dose.times;
+      if (left_s_[s] >= kLeft_s) ++dose.times;
     }
+    left_s_[s] = on ? 0 : left_s_[s] + dt;
     if (felt) {
       dose.augmented_s += dt;
       dose.impulse_Ns += added_N * dt;
     }
   }
-  was_ = record.subtasks;
-  started_ = true;
 }
 
 void TrialDoses::begin(std::uint32_t trial) {

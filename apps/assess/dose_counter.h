@@ -16,9 +16,12 @@ namespace palpa::assess {
 /// Adds up over recorded ticks how long each part of a task was on, how often it came on, and how
 /// much was added to the force meanwhile. What is added counts for every part that an active
 /// augmentation belongs to. Augmentations of no part in particular have a row of their own, the
-/// last, "any part", which is always on.
+/// last, "any part", which is always on. A hand that trembles across a part's limit does it once: a
+/// part that was left for less than kLeft_s was not left.
 class DoseCounter {
  public:
+  static constexpr double kLeft_s = 0.25;  ///< [chosen] no hand leaves and comes back faster
+
   DoseCounter() = default;
   DoseCounter(const haptics::AugmentationPlan& plan, const std::vector<std::string>& subtasks);
   /// The next tick of the trial, `dt` seconds after the one before.
@@ -29,8 +32,7 @@ class DoseCounter {
   std::vector<SubtaskDose> doses_;
   std::array<std::uint8_t, haptics::kMostAugmentations> part_of_{};  ///< of each augmentation
   std::size_t parts_ = 0;                                            ///< named ones
-  std::uint8_t was_ = 0;
-  bool started_ = false;
+  std::vector<double> left_s_;  ///< for how long each has not been on; at first for ever
 };
 
 /// The doses of one trial after another, from every tick as it was recorded.

@@ -195,9 +195,8 @@ ComparisonRun runComparison(const SessionOptions& options, const ComparisonWorld
 }
 
 ReportHead ComparisonWorld::head(const SessionOptions& options) const {
-  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
+  ReportHead head = headOf(options, task.title, task.taxonomy, station, simulated(options));
   head.too_hard_N = task.too_hard;
-  head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
   return head;
 }

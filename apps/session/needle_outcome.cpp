@@ -112,8 +112,9 @@ std::string whatIsScored(const NeedleWorld& world) {
          (rules.told_within_s > 0 ? "; what is aspirated is asked" : "");
 }
 
-std::vector<report::Fact> stationFacts(const SessionOptions& options, const NeedleWorld& world) {
-  std::vector<report::Fact> facts = stationFactsOf(options, world.station);
+/// To a station's facts those of this patient and task.
+std::vector<report::Fact> needleFacts(std::vector<report::Fact> facts,
+                                      const SessionOptions& options, const NeedleWorld& world) {
   if (world.task.block)
     facts.insert(facts.begin() + 3,
                  {"Phantom", "a block",
@@ -165,9 +166,9 @@ void sayResult(const SessionResult& result) {
 ReportHead headOf(const SessionOptions& options, const NeedleWorld& world) {
   const std::string side =
       world.task.block ? "" : std::string(", ") + anatomy::name(world.patient.side) + " side";
-  ReportHead head =
-      headOf(options, world.task.title + side, world.task.taxonomy, isSimulated(options, world));
-  head.station = stationFacts(options, world);
+  ReportHead head = headOf(options, world.task.title + side, world.task.taxonomy, world.station,
+                           isSimulated(options, world));
+  head.station = needleFacts(std::move(head.station), options, world);
   head.parts = meaningsOf(world.task.augmentations);
   head.doses = noDoses(world.tickConfig().augmentations, world.task.augmentations);
   return head;

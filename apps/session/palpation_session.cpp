@@ -288,9 +288,8 @@ std::string PalpationWorld::forceNote() const {
 }
 
 ReportHead PalpationWorld::head(const SessionOptions& options) const {
-  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
+  ReportHead head = headOf(options, task.title, task.taxonomy, station, simulated(options));
   head.force_note = forceNote();
-  head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
   for (report::Fact& fact : fingerFacts(options)) head.station.push_back(std::move(fact));
   for (report::Fact& fact : lumpFacts(task.library)) head.station.push_back(std::move(fact));

@@ -48,9 +48,8 @@ record::SessionInfo PulseWorld::info(const SessionOptions& options) const {
 }
 
 ReportHead PulseWorld::head(const SessionOptions& options) const {
-  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
+  ReportHead head = headOf(options, task.title, task.taxonomy, station, simulated(options));
   head.too_hard_N = task.rules.too_hard_N;
-  head.station = stationFactsOf(options, station);
   head.station.push_back(surfaceFact(task.library));
   return head;
 }

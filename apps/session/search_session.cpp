@@ -194,10 +194,9 @@ std::vector<report::Fact> pullFacts(const SearchWorld& world) {
 }  // namespace
 
 ReportHead SearchWorld::head(const SessionOptions& options) const {
-  ReportHead head = headOf(options, task.title, task.taxonomy, simulated(options));
+  ReportHead head = headOf(options, task.title, task.taxonomy, station, simulated(options));
   head.unit_note = format("1 U = %.3g mm in the hand: the floor is %.1f mm wide",
                           1e3 * rendering.unit, 1e3 * rendering.unit * task.spec.side);
-  head.station = stationFactsOf(options, station);
   head.station.push_back({"Stiffness of the floor",
                           format("%.0f N/m, degraded %.0f N/m", rendering.real.stiffness,
                                  rendering.degraded.stiffness),

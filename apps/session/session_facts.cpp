@@ -63,30 +63,6 @@ std::string whoPerformed(const SessionOptions& options) {
   return options.knows_patient ? who + " who has studied this patient" : who;
 }
 
-std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
-                                         const station::Station& station) {
-  std::vector<report::Fact> facts{
-      {"Station", station.title, station.id},
-      {"Haptic device", station.device.capabilities.name,
-       format("%.1f N, stable to %.0f N/m", station.device.capabilities.max_force_N,
-              station.device.capabilities.stable_stiffness)},
-      {"Calibration", station.calibration_verdict, station.calibration_date},
-      {"On the screen", shownIn(options).name, presentation::describe(shownIn(options))},
-      {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
-      {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
-  if (options.display == scene::Display::window || options.headset)
-    facts.push_back({"Sound", mayHear(options) ? "on" : "off", ""});
-  if (options.tracking == Tracking::model)
-    facts.push_back(
-        {"Board", "tracked by a model",
-         "of the errors that pictures would have caused; no picture was drawn. Figures " +
-             sha256OfFile(twin::trackingFigureFile(station)).substr(0, 12)});
-  if (!options.study.id.empty())
-    facts.push_back({"Study", options.study.id,
-                     "block " + options.study.block});  // not the condition: it may be blind
-  return facts;
-}
-
 std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
   std::vector<report::Fact> facts;
   for (const station::LumpKind& kind : library.kinds)
@@ -138,14 +114,6 @@ report::Courses<assess::PalpationSample> palpationCourses(const std::filesystem:
           draw(trial.header.trial, felt.samples());
         });
   };
-}
-
-std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy) {
-  if (taxonomy.visual.empty()) return {};
-  return {{"What is seen", taxonomy.visual, ""},
-          {"What is felt", taxonomy.haptic, ""},
-          {"What it is for", taxonomy.purpose, ""},
-          {"What is changed", taxonomy.property, ""}};
 }
 
 std::vector<report::Fact> runNotes(const SessionRun& result) {
@@ -250,8 +218,49 @@ json jsonOf(const ReportHead& head) {
           {"columns", columns}};
 }
 
+namespace {
+
+/// Where the task stands, as its file says.
+std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy, bool on_bench) {
+  if (taxonomy.visual.empty()) return {};
+  std::vector<report::Fact> facts{{"What is seen", taxonomy.visual, ""},
+                                  {"What is felt", taxonomy.haptic, ""},
+                                  {"What it is for", taxonomy.purpose, ""},
+                                  {"What is changed", taxonomy.property, ""}};
+  if (on_bench)
+    facts.push_back({"Here", "simulated", "what is called real is a model on the virtual bench"});
+  return facts;
+}
+
+/// Station, device, calibration, time, software: in this order.
+std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
+                                         const station::Station& station) {
+  std::vector<report::Fact> facts{
+      {"Station", station.title, station.id},
+      {"Haptic device", station.device.capabilities.name,
+       format("%.1f N, stable to %.0f N/m", station.device.capabilities.max_force_N,
+              station.device.capabilities.stable_stiffness)},
+      {"Calibration", station.calibration_verdict, station.calibration_date},
+      {"On the screen", shownIn(options).name, presentation::describe(shownIn(options))},
+      {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
+      {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
+  if (options.display == scene::Display::window || options.headset)
+    facts.push_back({"Sound", mayHear(options) ? "on" : "off", ""});
+  if (options.tracking == Tracking::model)
+    facts.push_back(
+        {"Board", "tracked by a model",
+         "of the errors that pictures would have caused; no picture was drawn. Figures " +
+             sha256OfFile(twin::trackingFigureFile(station)).substr(0, 12)});
+  if (!options.study.id.empty())
+    facts.push_back({"Study", options.study.id,
+                     "block " + options.study.block});  // not the condition: it may be blind
+  return facts;
+}
+}  // namespace
+
 ReportHead headOf(const SessionOptions& options, const std::string& title,
-                  const station::Taxonomy& taxonomy, bool simulated) {
+                  const station::Taxonomy& taxonomy, const station::Station& station,
+                  bool simulated) {
   ReportHead head;
   head.title = title;
   head.trainee = whoPerformed(options);
@@ -259,7 +268,8 @@ ReportHead headOf(const SessionOptions& options, const std::string& title,
   head.simulated = simulated;
   head.assessed = options.assess;
   head.page = options.report;
-  head.taxonomy = taxonomyFacts(taxonomy);
+  head.taxonomy = taxonomyFacts(taxonomy, station.simulated);
+  head.station = stationFactsOf(options, station);
   return head;
 }
 

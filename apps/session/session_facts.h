@@ -24,11 +24,6 @@ namespace palpa::session {
 
 /// A pseudonym, "simulated expert", "recorded hand".
 std::string whoPerformed(const SessionOptions& options);
-/// Station, device, calibration, time, software: in this order.
-std::vector<report::Fact> stationFactsOf(const SessionOptions& options,
-                                         const station::Station& station);
-/// Where the task stands, as its file says.
-std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy);
 /// By what the surface that is touched is known.
 report::Fact surfaceFact(const station::LumpLibrary& library);
 /// Of two fingers: how they press, and of whose force there is no sensor; of one nothing.
@@ -64,7 +59,8 @@ struct ReportHead {
 };
 /// Its beginning, the same for every task.
 ReportHead headOf(const SessionOptions& options, const std::string& title,
-                  const station::Taxonomy& taxonomy, bool simulated);
+                  const station::Taxonomy& taxonomy, const station::Station& station,
+                  bool simulated);
 /// What of it the rest of the evidence does not tell, for the session's text under "report".
 nlohmann::json jsonOf(const ReportHead& head);
 /// What every task tells the evidence of its session alike; `of_task`: what it tells itself.

@@ -143,7 +143,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
   const bool success = outcome == Outcome::success;
   completed_.push_back(std::move(trial));
   const std::string reached = setup_.settings.goal ? "Done: " + setup_.settings.goal->means
-                                                   : "Blood flows freely: the vein is reached";
+                                                   : "The end of the trial: the vein was reached";
   return {scoresJson(completed_.back().assessment), completed_.back().assessment.summary,
           setup_.settings.goal ? "Done. Trial ended" : "Vein reached. Trial ended",
           success ? reached : "The end of the trial"};

@@ -25,7 +25,8 @@ CauseWords wordsOf(haptics::SafetyCause cause) {
     case SafetyCause::energy:
       return {"the device gave too much energy", "R re-arms", "the device gave too much energy"};
     case SafetyCause::silent_device:
-      return {"the device is silent", "Look at its cable", "the device was silent"};
+      return {"the device is silent", "Look at its cable, close other programs",
+              "the device was silent"};
     case SafetyCause::stale_geometry:
     case SafetyCause::watchdog:
       return {"the computer cannot keep up", "", "the computer could not keep up"};

@@ -95,9 +95,9 @@ void TrialTask::becomeReady(std::int64_t now_ns) {
   if (lead_.automatic) return;
   status_.notice = warning.empty() ? "Press Enter to start. ? shows keys"
                                    : warning + ". Enter starts, ? shows keys";
-  if (aim_.empty()) return;
-  status_.notice =
-      aim_ + '\n' + (warning.empty() ? "Enter starts, ? shows keys" : std::string(status_.notice));
+  if (above_.empty()) return;
+  status_.notice = above_ + '\n' +
+                   (warning.empty() ? "Enter starts, ? shows keys" : std::string(status_.notice));
 }
 
 /// All for the evidence, the first for the notice; none forbids a trial.

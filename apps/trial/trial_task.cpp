@@ -107,7 +107,7 @@ void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_
                                                reason,
                                                outcome == Outcome::voided ? "" : end.scores_json});
   status_.state = TrialState::ended;
-  status_.notice = endNotice(status_.role, outcome, end.result, reason);
+  status_.notice = above_ = endNotice(status_.role, outcome, end.result, reason);
   since_ns_ = now_ns;
 }
 

@@ -37,8 +37,9 @@ class TrialTask : public runtime::Activity {
   /// How the tool is moved: said in the window while nothing else is to be said; empty: it is not.
   void isMovedBy(const std::string& words) { moved_ = words; }
 
-  /// What a trial is for, in a sentence: said in the window until it begins.
-  void isFor(const std::string& words) { aim_ = words; }
+  /// What a trial is for, in a sentence: said in the window until the first begins; before each
+  /// later one stands how the one before it ended.
+  void isFor(const std::string& words) { above_ = words; }
 
   const char* name() const override { return "task"; }
   std::int64_t step(std::int64_t now_ns) override;
@@ -134,7 +135,7 @@ class TrialTask : public runtime::Activity {
   std::int64_t now_ns_ = 0;           ///< of this step
   bool quit_ = false;
   std::int64_t asked_to_leave_ns_ = -1;  ///< by Escape; -1: not, or taken back since
-  std::string moved_, aim_;
+  std::string moved_, above_;
 };
 
 /// "safety", "device", a loss of the camera, a computer that did not keep up: a report's notes tell

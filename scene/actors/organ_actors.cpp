@@ -19,6 +19,7 @@
 #include <cstring>
 
 #include "scene/actors/instrument.h"
+#include "scene/actors/skin_light.h"
 #include "scene/palette.h"
 #include "scene/renderer_setup.h"
 
@@ -73,8 +74,9 @@ vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyDat
   look->SetColor(colour.data());
   look->SetAmbient(0.28);
   look->SetDiffuse(0.76);
-  look->SetSpecular(organ.organ == Organ::skin ? 0.06 : 0.18);
+  look->SetSpecular(0.18);
   look->SetSpecularPower(24);
+  if (organ.organ == Organ::skin) lightAsSkin(*actor);
   return actor;
 }
 

@@ -172,6 +172,8 @@ TEST(CohortPage, FewerThanEightCasesHaveNoReliability) {
 TEST(ProgressWords, FiguresHaveTheirUnits) {
   EXPECT_EQ(figureOf("time_s", 21.53), "21.5 s");
   EXPECT_EQ(figureOf("success", 0.8), "80 %");
+  EXPECT_EQ(figureOf("coverage_deep_pct", 94.99),
+            "94.9 %");  // never as the standard that it misses
   EXPECT_EQ(figureOf("total", 913.24), "913 points");
   EXPECT_EQ(figureOf("needle_passes", 2), "2");
   EXPECT_EQ(intervalWords("time_s", std::pair(1.0, 2.5)), " (95 % interval 1 s to 2.5 s)");

@@ -49,7 +49,7 @@ TEST(Heard, IsAFactOfTheSession) {
   for (const bool on : {true, false}) {
     const SessionOptions options = with(&SessionOptions::sound, on);
     const record::SessionInfo info =
-        infoOf(options, headOf(options, "", {}, false), R"({"id": "any"})");
+        infoOf(options, headOf(options, "", {}, {}, false), R"({"id": "any"})");
     EXPECT_EQ(nlohmann::json::parse(info.session_json).at("sound"), on);
   }
 }

@@ -190,6 +190,24 @@ TEST_F(Rehearsing, WhatATrialIsForIsSaidUntilItBegins) {
   EXPECT_EQ(task.notice().find("Find the lump."), std::string::npos);
 }
 
+TEST_F(Rehearsing, HowATrialEndedStandsUntilTheNextBegins) {
+  task.isFor("Find the lump.");
+  run(210);
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  task.endNow(now);
+  step();
+  const std::string ended = task.notice();
+  ASSERT_FALSE(ended.empty());
+  run(1000);
+  EXPECT_EQ(task.state(), TrialState::waiting);
+  EXPECT_EQ(task.notice(), ended + "\nEnter starts, ? shows keys");
+  channels.requests_to_task.push({UserCommand::start, ""});
+  step();
+  step();
+  EXPECT_EQ(task.notice().find(ended), std::string::npos);
+}
+
 TEST_F(Rehearsing, BesideAWarningWhatATrialIsForIsSaidToo) {
   task.isFor("Find the lump.");
   task.warn("This device keeps its last force");

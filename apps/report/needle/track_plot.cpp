@@ -18,6 +18,7 @@ using Eigen::Vector2d;
 constexpr double kHead = 26, kFoot = 22;  // px above and below a view, for words
 constexpr double kApartPx = 24;           // between views
 constexpr double kNumber = 8.5;           // radius of a numbered mark
+constexpr double kTremor = 1e-3;          // m of a tip's path that a picture leaves out
 
 /// A view in its place on the picture.
 struct Placed {
@@ -100,9 +101,13 @@ void drawWay(Html& svg, const Placed& at, const NeedleViews& views,
   taught.lineTo(at.x(target), at.y(target));
   svgPath(svg, "taught dashed", taught.str());
   for (const NeedleTrack& track : tracks) {
-    for (std::size_t i = 0; i < track.tips_A.size(); ++i) {
-      const Vector2d p = to(track.tips_A[i]);
-      i == 0 ? tips.moveTo(at.x(p), at.y(p)) : tips.lineTo(at.x(p), at.y(p));
+    Vector2d before(0, 0);
+    for (const Vec3& tip_A : track.tips_A) {
+      const Vector2d p = to(tip_A);
+      const bool first = &tip_A == &track.tips_A.front(), last = &tip_A == &track.tips_A.back();
+      if (!first && !last && (p - before).norm() < kTremor) continue;
+      first ? tips.moveTo(at.x(p), at.y(p)) : tips.lineTo(at.x(p), at.y(p));
+      before = p;
     }
     const Vector2d tip = to(track.deepest.tip_A),
                    back = to(track.deepest.tip_A - assess::kShownShaft * track.deepest.axis_A);
@@ -202,7 +207,8 @@ void writeTrack(Html& html, const NeedleViews& views,
                    (views.entry_acceptable > 0 ? "; circle: where experts go in" : "") +
                    ". Numbers: passes of the needle, where each went in and what it was aimed at "
                    "when it was deepest. A dashed rim: beyond the picture. In section: the "
-                   "tip's path, and the needle where each pass was deepest. The skin is drawn as "
+                   "tip's path without what is under a millimetre, and the needle where each pass "
+                   "was deepest. The skin is drawn as "
                    "it lies untouched: it gives way under the needle before it is pierced.");
 }
 

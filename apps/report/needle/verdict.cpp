@@ -40,7 +40,9 @@ void writeTile(Html& html, const char* name, const std::string& value) {
 
 void writeTiles(Html& html, const assess::TrialAssessment& trial) {
   const auto tiles = html.in("ul", {{"class", "tiles"}});
-  writeTile(html, "Duration", fixed(trial.values.time_ms / 1000, 1) + " s");
+  const bool blood = trial.by_path && trial.values.success;
+  writeTile(html, blood ? "Until blood flowed" : "Duration",
+            fixed(trial.values.time_ms / 1000, 1) + " s");
   if (trial.by_path) {
     writeTile(html, "Skin punctures", std::to_string(trial.skin_punctures));
     writeTile(html, "Redirections", std::to_string(trial.redirections));

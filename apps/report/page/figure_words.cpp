@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/assess/metrics/metric_table.h"
+#include "apps/assess/palpation/palpation_words.h"
 #include "apps/report/page/page_parts.h"
 
 namespace palpa::report {
@@ -42,6 +43,8 @@ std::pair<double, std::string> scaleOf(const std::string& metric) {
 
 std::string figureOf(const std::string& metric, double mean) {
   const auto [factor, unit] = scaleOf(metric);
+  if (unit == "%" && !isShare(metric) && std::isfinite(mean))
+    return assess::percentWords(mean / 100);
   return (isShare(metric) ? fixed(factor * mean, 0) : amount(factor * mean)) +
          (unit.empty() ? "" : " " + unit);
 }

@@ -75,7 +75,7 @@ void writeSubtaskTable(Html& html, const std::vector<assess::SubtaskDose>& doses
   {
     const auto head = html.in("thead");
     const auto row = html.in("tr");
-    for (const char* column : {"Part of the task", "Lasted", "Of the time", "Times"})
+    for (const char* column : {"Part of the task", "Lasted", "Of the trial", "Times"})
       html.element("th", {{"scope", "col"}}, column);
     if (cues)
       for (const char* column : {"Cues felt", "Added in all", "Added on average"})
@@ -83,13 +83,15 @@ void writeSubtaskTable(Html& html, const std::vector<assess::SubtaskDose>& doses
   }
   const auto body = html.in("tbody");
   for (const assess::SubtaskDose& dose : doses)
-    writeSubtaskRow(html, dose, meaningOf(meanings, dose.subtask), seconds, cues);
+    if (dose.subtask != assess::kAnyPart || dose.augmented_s > 0)
+      writeSubtaskRow(html, dose, meaningOf(meanings, dose.subtask), seconds, cues);
 }
 
 void writeSubtaskNote(Html& html) {
   html.element("p", {{"class", "muted small"}},
                "Lasted: while the hand did that part of the task, by its place, its speed and its "
-               "contact; parts may overlap. Cues felt: while a cue was pushing; no such column "
+               "contact; parts may overlap. Times: left for a moment counts as not left. Cues "
+               "felt: while a cue was pushing; no such column "
                "where none was. Added in all: force times time, 1 N s is one "
                "newton for one second. Added on average: while a cue was felt.");
 }

@@ -116,15 +116,16 @@ std::vector<Fact> coverageFigures(const assess::PalpationScore& s,
 
 std::vector<Fact> forceFigures(const assess::PalpationScore& s,
                                const assess::PalpationRules& rules) {
-  return {{"Largest force", fixed(s.peak, 2) + " N", ""},
-          {"Mean force", fixed(s.mean, 2) + " N", "while touching"},
-          {"Too light", percentText(s.too_light),
-           "of the time of touching: below " + trimmed(rules.levels[0], 2) + " N"},
-          {"Too hard", percentText(s.too_hard),
-           "of the time of touching: above " + trimmed(rules.too_hard, 2) + " N"},
-          {"Force of closer looks", s.closer_force > 0 ? fixed(s.closer_force, 2) + " times" : "–",
-           s.closer_force > 0 ? "the force of the search; 1.15 is usual for those who find"
-                              : "no closer look was taken"}};
+  const std::string touching =
+      " N, of the time with " + trimmed(rules.touch, 2) + " N or more: touching";
+  return {
+      {"Largest force", fixed(s.peak, 2) + " N", ""},
+      {"Mean force", fixed(s.mean, 2) + " N", "while touching"},
+      {"Too light", percentText(s.too_light), "below " + trimmed(rules.levels[0], 2) + touching},
+      {"Too hard", percentText(s.too_hard), "above " + trimmed(rules.too_hard, 2) + touching},
+      {"Force of closer looks", s.closer_force > 0 ? fixed(s.closer_force, 2) + " times" : "–",
+       s.closer_force > 0 ? "the force of the search; 1.15 is usual for those who find"
+                          : "no closer look was taken"}};
 }
 
 }  // namespace
