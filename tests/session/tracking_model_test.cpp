@@ -42,7 +42,7 @@ TEST(TrackingModelSession, EvidenceAndReportSayThatTheBoardWasTrackedByAModel) {
     EXPECT_EQ(nlohmann::json::parse(evidence.info().session_json).at("tracking"),
               model ? "model" : "images");
     bool said = false;
-    for (const report::Fact& fact : stationFactsOf(options, world.station))
+    for (const report::Fact& fact : headOf(options, "", {}, world.station, true).station)
       said = said || fact.value == "tracked by a model";
     EXPECT_EQ(said, model);
   }
