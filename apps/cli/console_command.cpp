@@ -23,10 +23,11 @@ namespace fs = std::filesystem;
 constexpr std::size_t kShortestToken = 16;
 
 struct ConsoleOptions {
-  std::string listen = "127.0.0.1", token_file, records, home, station, room_camera;
+  std::string listen = "127.0.0.1", token_file, records, home, station, room_camera, certificate,
+              key;
   std::vector<std::string> names;
   int port = 0;
-  bool open = true;
+  bool open = true, tls = false;
 };
 
 /// The first line; a file that others may read gives its token away.
@@ -67,6 +68,9 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.port = o.port;
   s.token = tokenIn(o.token_file);
   s.names = o.names;
+  s.tls = o.tls;
+  s.certificate = o.certificate;
+  s.key = o.key;
   s.tone = evidence::toneOfEvent;
   if (!o.station.empty()) {
     station::readStation(o.station);  // refused here, where somebody reads it
@@ -75,16 +79,27 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   return s;
 }
 
+void sayHowItIsKnown(const console::OpenedConsole& opened) {
+  if (opened.fingerprint.empty()) return;
+  std::printf("It is encrypted. Its certificate's SHA-256: %s\n", opened.fingerprint.c_str());
+  if (!opened.authority.empty())
+    std::printf(
+        "A tablet believes it when %s was installed there as an authority; else it warns once: "
+        "compare that number\n",
+        opened.authority.c_str());
+}
+
 void serve(const ConsoleOptions& o) {
   const console::ConsoleSettings settings = settingsOf(o);
-  serveConsole(settings, [&](const std::string& url) {
-    std::printf("The console: %s\n", url.c_str());
+  serveConsole(settings, [&](const console::OpenedConsole& opened) {
+    std::printf("The console: %s\n", opened.url.c_str());
+    sayHowItIsKnown(opened);
     if (!settings.token.empty()) std::printf("It asks for the token in %s\n", o.token_file.c_str());
     std::printf(
         "Ctrl-C ends it; a running session continues, and is found again when the console is "
         "back\n");
     std::fflush(stdout);
-    if (o.open && settings.place.display) openInBrowser(url);
+    if (o.open && settings.place.display) openInBrowser(opened.url);
   });
   std::printf("The console has ended\n");
 }
@@ -105,7 +120,8 @@ void addConsole(CLI::App& program) {
   command
       ->add_option(
           "--listen", o->listen,
-          "Address to listen on (default 127.0.0.1: this computer only); others need --token-file")
+          "Address to listen on (default 127.0.0.1: this computer only); others need --token-file, "
+          "and are encrypted")
       ->type_name("ADDRESS");
   command->add_option("--port", o->port, "Port (default: any free one)")->check(inRange(1, 65535));
   command
@@ -113,6 +129,20 @@ void addConsole(CLI::App& program) {
                    "File with the token that anyone who opens the pages must enter; only you may "
                    "be able to read it")
       ->type_name("FILE");
+  command->add_flag("--tls", o->tls,
+                    "Encrypt also what stays on this computer (an address that others can reach is "
+                    "always encrypted)");
+  CLI::Option* const certificate =
+      command
+          ->add_option("--tls-certificate", o->certificate,
+                       "Certificate of the centre's own (PEM, with those above it); default: one "
+                       "that the console makes")
+          ->type_name("FILE");
+  CLI::Option* const key =
+      command->add_option("--tls-key", o->key, "Its key (PEM, without a password)")
+          ->type_name("FILE")
+          ->needs(certificate);
+  certificate->needs(key);
   command
       ->add_option("--name", o->names,
                    "Another name by which browsers reach this computer, e.g. station3.local")
@@ -137,8 +167,8 @@ void addConsole(CLI::App& program) {
   addRecordsArgument(*command, o->records);
   command->footer(
       "Examples:\n  palpa console\n  palpa console --port 8080 --no-open\n  palpa console --listen "
-      "192.168.1.20 --port 8080 --token-file ~/palpa-token\n      for a tablet in a room's own "
-      "network: http is not encrypted; keep it off other networks");
+      "192.168.1.20 --port 8080 --token-file ~/palpa-token\n      for a tablet: its pages are "
+      "encrypted");
   command->callback([o] { serve(*o); });
 }
 

@@ -6,12 +6,15 @@
 #include <thread>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/utc.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/routes.h"
 #include "apps/os/file_access.h"
 #include "apps/os/real_time.h"
 #include "apps/os/signals.h"
 #include "apps/os/socket.h"
+#include "apps/os/tls/kept_identity.h"
+#include "apps/os/tls/tls_line.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -50,13 +53,49 @@ std::string bracketed(const std::string& host) {
   return host.find(':') == std::string::npos ? host : "[" + host + "]";
 }
 
-std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
-  std::vector<std::string> names = s.names, hosts;
+bool isAnyAddress(const std::string& address) { return address == "0.0.0.0" || address == "::"; }
+
+/// By which it may be called.
+std::vector<std::string> namesOf(const ConsoleSettings& s) {
+  std::vector<std::string> names = s.names;
   for (const char* own : {"127.0.0.1", "localhost", "::1"}) names.push_back(own);
-  if (s.address != "0.0.0.0" && s.address != "::") names.push_back(s.address);
-  for (const std::string& name : names)
+  if (!isAnyAddress(s.address)) names.push_back(s.address);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
+  std::vector<std::string> hosts;
+  for (const std::string& name : namesOf(s))
     hosts.push_back(bracketed(name) + ":" + std::to_string(port));
   return hosts;
+}
+
+/// What stands between the console and whoever listens in; nothing on this computer alone.
+struct Encryption {
+  std::unique_ptr<os::TlsServer> tls;
+  OpenedConsole opened;
+};
+
+os::KeptIdentity identityOf(const ConsoleSettings& s) {
+  constexpr std::size_t kLongest = 45;  // of a name to which more words are added
+  const auto now = utcSecondsOf(runtime::utcNow());
+  if (!s.certificate.empty()) return {os::identityIn(s.certificate, s.key, now), {}};
+  const std::string at = !s.names.empty()          ? s.names.front()
+                         : isAnyAddress(s.address) ? "this computer"
+                                                   : s.address;
+  return os::keptIdentity(
+      s.place.home / "tls",
+      {.name = ("Palpa console at " + at).substr(0, kLongest), .reached_by = namesOf(s)}, now);
+}
+
+Encryption encryptionOf(const ConsoleSettings& s) {
+  if (!s.tls && s.certificate.empty() && isLoopback(s.address)) return {};
+  const os::KeptIdentity own = identityOf(s);
+  return {
+      std::make_unique<os::TlsServer>(own.identity),
+      {"", os::factsOf(own.identity.certificate, "the certificate").fingerprint, own.authority}};
 }
 
 /// Where it listens: the port asked for, or any free one.
@@ -109,7 +148,8 @@ bool isLoopback(const std::string& address) {
   return address == "localhost" || address == "::1" || os::isLoopbackAddress(address);
 }
 
-void serveConsole(const ConsoleSettings& s, const std::function<void(const std::string&)>& ready) {
+void serveConsole(const ConsoleSettings& s,
+                  const std::function<void(const OpenedConsole&)>& ready) {
   if (!isLoopback(s.address) && s.token.empty())
     throw UsageError(
         "needs a token", "--listen " + s.address,
@@ -121,9 +161,11 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   const os::InterruptNote interrupt(os::InterruptNote::Again::noted);
   Refusals refusals(s.place.home / "refused.log");
   Guard guard(s.token);
-  WebServer server(guard, refusals);
+  Encryption encryption = encryptionOf(s);
+  WebServer server(guard, refusals, encryption.tls.get());
   const int port = portOf(server, s);
-  guard.answerTo(hostsOf(s, port));
+  const std::string scheme = encryption.tls ? "https" : "http";
+  guard.answerTo(hostsOf(s, port), scheme);
   ConsolePlace place = s.place;
   place.reached = !isLoopback(s.address) || !s.names.empty();
   Console console(place, guard, s.tone);
@@ -138,10 +180,11 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   addOwnRoutes(server, console);
   checkHealth(console);
   const Serving serving(server);
-  const std::string url = "http://" + bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) +
-                          ":" + std::to_string(port) + "/";
-  only.announce(url);
-  ready(url);
+  encryption.opened.url = scheme + "://" +
+                          bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) + ":" +
+                          std::to_string(port) + "/";
+  only.announce(encryption.opened.url);
+  ready(encryption.opened);
   while (!interrupt.noted()) {
     runtime::rest(kRound);
     console.sessions.look();

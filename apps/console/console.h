@@ -17,15 +17,25 @@ struct ConsoleSettings {
   std::string token;               ///< needed for any other address than this computer's own
   live::ToneOf tone;               ///< of a replay's events
   std::vector<std::string> names;  ///< by which pages may also call it, without port
+  /// Encrypted; for an address that others can reach in any case
+  bool tls = false;
+  std::string certificate, key;  ///< files of the centre's own; empty: made in the home
+};
+
+/// A console that can be used.
+struct OpenedConsole {
+  std::string url;
+  std::string fingerprint;          ///< of its certificate; empty: it is not encrypted
+  std::filesystem::path authority;  ///< who vouches for it, as a file; empty: the centre's own
 };
 
 /// This computer alone can reach it.
 bool isLoopback(const std::string& address);
 
-/// Serves until SIGINT or SIGTERM; sessions go on then. `ready`: called with the address of the
-/// page when it is there. Throws Error where another console uses the same place, or the port is
-/// taken; UsageError for an address open to others without a token.
+/// Serves until SIGINT or SIGTERM; sessions go on then. `ready`: called when the page is there.
+/// Throws Error where another console uses the same place, or the port is taken; UsageError for an
+/// address open to others without a token, and for a certificate that is none.
 void serveConsole(const ConsoleSettings& settings,
-                  const std::function<void(const std::string& url)>& ready);
+                  const std::function<void(const OpenedConsole&)>& ready);
 
 }  // namespace palpa::console

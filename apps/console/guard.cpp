@@ -101,6 +101,12 @@ GuardVerdict Guard::judge(const GuardedRequest& asked) {
   return {};
 }
 
+std::string Guard::cookieText(const std::string& name, const std::string& value,
+                              const std::string& more) const {
+  return name + "=" + value + "; HttpOnly; SameSite=Strict; Path=/" +
+         (scheme_ == "https" ? "; Secure" : "") + more;
+}
+
 bool Guard::mayStop(const GuardedRequest& asked) const {
   return asked.method == "POST" && isStopPath(asked.path) && judgeOrigin(asked).status == 200 &&
          judgePage(asked).status == 200 && entered(asked.cookie);
@@ -112,7 +118,7 @@ GuardVerdict Guard::judgeOrigin(const GuardedRequest& asked) const {
                      "\": use the address that it prints when it starts"};
   const bool own = asked.origin.empty() ||
                    std::any_of(hosts_.begin(), hosts_.end(), [&](const std::string& host) {
-                     return asked.origin == "http://" + host;
+                     return asked.origin == scheme_ + "://" + host;
                    });
   if (!own) return {403, "requested by another site"};
   if (!asked.fetch_site.empty() && asked.fetch_site != "same-origin" &&

@@ -38,7 +38,10 @@ class Guard {
   explicit Guard(std::string token);
   /// Names with port by which the console may be called; before it is asked anything. Until then
   /// nobody may.
-  void answerTo(std::vector<std::string> hosts) { hosts_ = std::move(hosts); }
+  void answerTo(std::vector<std::string> hosts, std::string scheme = "http") {
+    hosts_ = std::move(hosts);
+    scheme_ = std::move(scheme);
+  }
 
   GuardVerdict judge(const GuardedRequest& asked);
   /// An emergency stop by somebody who may; whether its number was used is not looked at. Waits for
@@ -49,6 +52,9 @@ class Guard {
   std::string enter(const std::string& remote, const std::string& token);
   bool entered(const std::string& cookie_header) const;
   const std::string& pageKey() const { return page_key_; }
+  /// "Set-Cookie" of a cookie that no script sees and no other site sends; `more`: further parts.
+  std::string cookieText(const std::string& name, const std::string& value,
+                         const std::string& more = "") const;
   bool asksForToken() const { return !token_.empty(); }
   /// By which trainees come to "/api/mine" and what lies under it, and to nothing else.
   OwnDoor& own() { return own_; }
@@ -59,6 +65,7 @@ class Guard {
   GuardVerdict judgeNumber(const GuardedRequest& asked);
 
   std::vector<std::string> hosts_;
+  std::string scheme_ = "http";
   const std::string token_, page_key_, cookie_;
   mutable std::mutex mutex_;
   std::unordered_set<std::string> written_;  ///< numbers of writes

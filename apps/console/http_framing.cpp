@@ -25,8 +25,8 @@ void assign(const std::optional<os::Address>& address, std::string* ip, int* por
 
 }  // namespace
 
-DeadlineStream::DeadlineStream(int socket, std::string begun)
-    : socket_(socket), buffer_(std::move(begun)) {
+DeadlineStream::DeadlineStream(os::Line& line, std::string begun)
+    : line_(line), buffer_(std::move(begun)) {
   int port = 0;
   get_remote_ip_and_port(remote_, port);
 }
@@ -44,33 +44,36 @@ void DeadlineStream::answerWithin(std::chrono::milliseconds whole,
 }
 
 bool DeadlineStream::waits(std::chrono::milliseconds time) const {
-  return at_ < buffer_.size() || readable(socket_, time);
+  return at_ < buffer_.size() || line_.holdsMore() || readable(socket(), time);
 }
 
 bool DeadlineStream::is_readable() const {
-  return at_ < buffer_.size() ||
-         readable(socket_,
+  return at_ < buffer_.size() || line_.holdsMore() ||
+         readable(socket(),
                   std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()));
 }
 
 /// False as soon as the other side is gone: a stream of pictures ends with its reader.
 bool DeadlineStream::is_writable() const {
-  return Clock::now() < answered_ && os::readerTakes(socket_, static_cast<int>(stalled_.count()));
+  return Clock::now() < answered_ && os::readerTakes(socket(), static_cast<int>(stalled_.count()));
 }
 
+/// Of an encrypted line a part may have come that gives nothing yet.
 bool DeadlineStream::fill() {
-  if (most_ == 0 || !is_readable()) {
-    cut_ = true;
-    return false;
-  }
   char bytes[4096];
-  const std::size_t count =
-      os::receiveSome(socket_, bytes, std::min(sizeof bytes, most_)).value_or(0);
-  left_ = count == 0;
-  if (left_) return false;
-  most_ -= count;
-  buffer_.assign(bytes, count);
-  at_ = 0;
+  for (std::size_t count = 0; count == 0;) {
+    if (most_ == 0 || !is_readable()) {
+      cut_ = true;
+      return false;
+    }
+    const std::optional<std::size_t> got = line_.receiveSome(bytes, std::min(sizeof bytes, most_));
+    left_ = !got;
+    if (left_) return false;
+    count = *got;
+    most_ -= count;
+    buffer_.assign(bytes, count);
+    at_ = 0;
+  }
   return true;
 }
 
@@ -84,16 +87,16 @@ ssize_t DeadlineStream::read(char* to, std::size_t size) {
 
 ssize_t DeadlineStream::write(const char* from, std::size_t size) {
   if (!is_writable()) return -1;
-  const std::optional<std::size_t> count = os::sendSome(socket_, from, size);
+  const std::optional<std::size_t> count = line_.sendSome(from, size);
   return count ? static_cast<ssize_t>(*count) : -1;
 }
 
 void DeadlineStream::get_remote_ip_and_port(std::string& ip, int& port) const {
-  assign(os::peerOf(socket_), &ip, &port);
+  assign(os::peerOf(socket()), &ip, &port);
 }
 
 void DeadlineStream::get_local_ip_and_port(std::string& ip, int& port) const {
-  assign(os::ownOf(socket_), &ip, &port);
+  assign(os::ownOf(socket()), &ip, &port);
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "apps/console/guard.h"
 #include "apps/console/httplib_server.h"
+#include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -17,7 +18,7 @@ class DeadlineStream final : public httplib::Stream {
  public:
   using Clock = runtime::ServingClock;
   /// `begun`: what has been read of its request already.
-  explicit DeadlineStream(int socket, std::string begun = "");
+  explicit DeadlineStream(os::Line& line, std::string begun = "");
 
   /// From here a request may be read, until `deadline` and up to `most` bytes that have not come.
   void begin(Clock::time_point deadline, std::size_t most);
@@ -32,7 +33,7 @@ class DeadlineStream final : public httplib::Stream {
   ssize_t write(const char* from, std::size_t size) override;
   void get_remote_ip_and_port(std::string& ip, int& port) const override;
   void get_local_ip_and_port(std::string& ip, int& port) const override;
-  socket_t socket() const override { return socket_; }
+  socket_t socket() const override { return line_.socket(); }
   const std::string& remote() const { return remote_; }
   bool cut() const { return cut_; }                         ///< it was too slow or too long
   bool left() const { return left_; }                       ///< the other side ended it
@@ -40,7 +41,7 @@ class DeadlineStream final : public httplib::Stream {
 
  private:
   bool fill();
-  const int socket_;
+  os::Line& line_;
   std::string remote_;
   Clock::time_point deadline_, answered_ = Clock::time_point::max();
   std::chrono::milliseconds stalled_{10'000};

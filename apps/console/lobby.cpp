@@ -32,11 +32,13 @@ bool isEmergencyStop(const std::string& said) {
 
 }  // namespace
 
-Caller::Caller(int from) : socket(from), since(runtime::ServingClock::now()) {
+Caller::Caller(std::unique_ptr<os::Line> from)
+    : socket(from->socket()), line(std::move(from)), since(runtime::ServingClock::now()) {
   if (const auto address = os::peerOf(socket)) remote = address->ip;
 }
 
 Caller::~Caller() {
+  line.reset();
   os::endBoth(socket);
   os::closeSocket(socket);
 }
@@ -44,8 +46,7 @@ Caller::~Caller() {
 /// One that was answered before is closed without a word: a word could be taken for the answer to
 /// a request that is on its way.
 void turnAway(const Caller& caller) {
-  if (caller.answered == 0 || !caller.said.empty())
-    os::sendSome(caller.socket, kFull, sizeof kFull - 1);
+  if (caller.answered == 0 || !caller.said.empty()) caller.line->sendSome(kFull, sizeof kFull - 1);
 }
 
 void Lobby::run(int listener) {
@@ -98,7 +99,7 @@ void Lobby::letIn(int listener) {
       return ways_.away();
     }
     os::sendAtOnce(socket);
-    waiting_.push_back(std::make_unique<Caller>(socket));
+    waiting_.push_back(std::make_unique<Caller>(ways_.line(socket)));
     if (!hear(waiting_.back())) waiting_.pop_back();
     makeRoom();
   }
@@ -135,7 +136,7 @@ bool Lobby::hear(std::unique_ptr<Caller>& caller) {
   char bytes[4096];
   bool left = false;
   for (std::size_t count = 1; count > 0 && caller->said.size() < kLongestHead;) {
-    const std::optional<std::size_t> got = os::receiveSome(caller->socket, bytes, sizeof bytes);
+    const std::optional<std::size_t> got = caller->line->receiveSome(bytes, sizeof bytes);
     left = !got;
     count = got.value_or(0);
     if (count > 0 && caller->said.empty()) caller->since = Clock::now();

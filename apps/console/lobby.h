@@ -16,12 +16,13 @@ namespace palpa::console {
 
 /// A connection between two answers: where it comes from, and what it has said of its next request.
 struct Caller {
-  explicit Caller(int from);
+  explicit Caller(std::unique_ptr<os::Line> from);
   ~Caller();  ///< ends the connection
   Caller(const Caller&) = delete;
   Caller& operator=(const Caller&) = delete;
 
   const int socket;
+  std::unique_ptr<os::Line> line;           ///< over that
   std::string remote;                       ///< its address in figures
   std::string said;                         ///< bytes of its next request
   int answered = 0;                         ///< requests
@@ -47,6 +48,10 @@ class Lobby {
     std::function<void(std::unique_ptr<Caller>)> stop;    ///< an emergency stop that may, complete
     std::function<void(const std::string& remote)> slow;  ///< began a request, and did not end it
     std::function<void()> away;                           ///< one had to make room
+    /// How a connection is spoken over; as it is, unless said otherwise
+    std::function<std::unique_ptr<os::Line>(int socket)> line = [](int socket) {
+      return std::make_unique<os::Line>(socket);
+    };
   };
   explicit Lobby(Ways ways) : ways_(std::move(ways)) {}
 

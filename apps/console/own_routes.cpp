@@ -64,7 +64,7 @@ void enterAsOneself(Console& c, const httplib::Request& q, httplib::Response& r)
     return refuse(r, 403,
                   "that PIN does not work: it was used, or is older than ten minutes; after five "
                   "wrong ones wait a minute");
-  r.set_header("Set-Cookie", "palpa-mine=" + key + "; HttpOnly; SameSite=Strict; Path=/");
+  r.set_header("Set-Cookie", c.guard.cookieText("palpa-mine", key));
   answer(r, json::object());
 }
 
@@ -80,7 +80,7 @@ void addOwnRoutes(WebServer& server, Console& c) {
               [&c](const httplib::Request& q, httplib::Response& r) { enterAsOneself(c, q, r); });
   server.Post("/api/mine/leave", [&c](const httplib::Request& q, httplib::Response& r) {
     c.guard.own().leave(q.get_header_value("Cookie"));
-    r.set_header("Set-Cookie", "palpa-mine=; HttpOnly; SameSite=Strict; Path=/; Max-Age=0");
+    r.set_header("Set-Cookie", c.guard.cookieText("palpa-mine", "", "; Max-Age=0"));
     answer(r, json::object());
   });
   server.Get("/api/mine", [&c](const httplib::Request& q, httplib::Response& r) {

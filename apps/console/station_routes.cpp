@@ -225,7 +225,7 @@ void addStationRoutes(WebServer& server, Console& c) {
                                                                 : "");
     if (cookie.empty())
       return refuse(r, 403, "that is not the token; after five wrong ones wait a minute");
-    r.set_header("Set-Cookie", "palpa=" + cookie + "; HttpOnly; SameSite=Strict; Path=/");
+    r.set_header("Set-Cookie", c.guard.cookieText("palpa", cookie));
     answer(r, json::object());
   });
   server.Get("/api/health",

@@ -64,8 +64,9 @@ void setSafeHeaders(const httplib::Request& request, httplib::Response& response
 
 /// Takes off, for a moment, what is still being sent: a socket closed with bytes unread takes the
 /// answer with it.
-void linger(int socket) {
-  os::endWriting(socket);
+void linger(os::Line& line) {
+  const int socket = line.socket();
+  line.endWriting();
   char bytes[4096];
   const auto until = Clock::now() + kLinger;
   for (std::size_t left = kLongestRequest; left > sizeof bytes && Clock::now() < until;
@@ -78,7 +79,7 @@ void linger(int socket) {
 
 }  // namespace
 
-WebServer::WebServer(Guard& guard, Refusals& refusals)
+WebServer::WebServer(Guard& guard, Refusals& refusals, const os::TlsServer* tls)
     : guard_(guard),
       refusals_(refusals),
       lobby_({.request =
@@ -101,7 +102,11 @@ WebServer::WebServer(Guard& guard, Refusals& refusals)
                   [this](const std::string& remote) {
                     noteLater(remote, "-", "-", 408, "a request was too slow or too long");
                   },
-              .away = [this] { countAway(); }}),
+              .away = [this] { countAway(); },
+              .line =
+                  [tls](int socket) {
+                    return tls ? tls->lineOver(socket) : std::make_unique<os::Line>(socket);
+                  }}),
       threads_([this](std::unique_ptr<Caller> caller) { answer(std::move(caller)); },
                [this](std::unique_ptr<Caller> caller) { answerStop(std::move(caller)); }) {
   set_payload_max_length(kLongestBody);
@@ -253,13 +258,13 @@ bool WebServer::process(DeadlineStream& stream, Caller& caller) {
 void WebServer::answer(std::unique_ptr<Caller> caller) {
   const GuardVerdict head =
       judgeHead(std::string_view(caller->said).substr(0, endOfHead(caller->said)));
-  DeadlineStream stream(caller->socket, std::exchange(caller->said, ""));
+  DeadlineStream stream(*caller->line, std::exchange(caller->said, ""));
   stream.begin(Clock::now() + (threads_.crowded() ? kCrowdedBodyWithin : kBodyWithin),
                kLongestRequest);
   stream.answerWithin(kAnswerWithin, kStalled);
   turn = {.remote = caller->remote, .stream = &stream, .head = head};
   const bool more = process(stream, *caller);
-  if (turn.closes) return linger(caller->socket);
+  if (turn.closes) return linger(*caller->line);
   if (!more) return;
   caller->said = stream.rest();
   lobby_.comeBack(std::move(caller));
@@ -270,7 +275,7 @@ void WebServer::answer(std::unique_ptr<Caller> caller) {
 void WebServer::answerStop(std::unique_ptr<Caller> caller) {
   const GuardVerdict head =
       judgeHead(std::string_view(caller->said).substr(0, endOfHead(caller->said)));
-  DeadlineStream stream(caller->socket, std::exchange(caller->said, ""));
+  DeadlineStream stream(*caller->line, std::exchange(caller->said, ""));
   stream.begin(Clock::now() + kStopAnswered, 0);
   stream.answerWithin(std::chrono::milliseconds::max(), kStopAnswered);
   turn = {.remote = caller->remote, .stream = &stream, .head = head, .is_stop = true};

@@ -12,6 +12,7 @@
 #include "apps/console/httplib_server.h"
 #include "apps/console/lobby.h"
 #include "apps/console/request_threads.h"
+#include "apps/os/tls/tls_line.h"
 
 namespace palpa::console {
 
@@ -21,7 +22,8 @@ namespace palpa::console {
 /// all others, but for the lobby and the one for emergency stops, which wait for no file either.
 class WebServer final : public HttplibServer {
  public:
-  WebServer(Guard& guard, Refusals& refusals);
+  /// `tls`: connections are encrypted; it must outlive the server.
+  WebServer(Guard& guard, Refusals& refusals, const os::TlsServer* tls = nullptr);
   ~WebServer() override;
 
   /// A stream (events, pictures) is let in: at most kMostStreams at once, kMostStreamsOfOne of one

@@ -60,6 +60,32 @@ void surviveBrokenConnections();
 /// A second descriptor of the same connection, to be closed apart; -1: there is none left.
 int sharedSocket(int socket);
 
+/// What is said over a socket, which stays its owner's: as it is, or in the words of a class that
+/// derives from this one (tls/tls_line.h). Nothing here waits.
+class Line {
+ public:
+  explicit Line(int socket) : socket_(socket) {}
+  virtual ~Line() = default;
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  int socket() const { return socket_; }
+  /// As `os::sendSome` and `os::receiveSome`. What could not be sent is offered again, unchanged.
+  virtual std::optional<std::size_t> sendSome(const void* bytes, std::size_t size) {
+    return os::sendSome(socket_, bytes, size);
+  }
+  virtual std::optional<std::size_t> receiveSome(void* bytes, std::size_t size) {
+    return os::receiveSome(socket_, bytes, size);
+  }
+  /// Bytes are here to be received although the socket gives none.
+  virtual bool holdsMore() const { return false; }
+  /// Nothing more will be said; it may still be listened to.
+  virtual void endWriting() { os::endWriting(socket_); }
+
+ private:
+  const int socket_;
+};
+
 /// Wakes one thread that waits in `waitForAny` for its `descriptor`, from any other. Throws Error
 /// where the system gives none.
 class WakeUp {

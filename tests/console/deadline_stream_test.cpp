@@ -40,7 +40,8 @@ std::string readAll(DeadlineStream& stream, std::size_t piece) {
 TEST(DeadlineStream, GivesWhatCameInPiecesOfAnySize) {
   for (const std::size_t piece : {1u, 3u, 4096u, 10'000u}) {
     Line line;
-    DeadlineStream stream(line.ends[0]);
+    os::Line plain(line.ends[0]);
+    DeadlineStream stream(plain);
     const std::string said(10'000, 'a');
     line.say(said);
     line.leave();
@@ -54,7 +55,8 @@ TEST(DeadlineStream, GivesWhatCameInPiecesOfAnySize) {
 TEST(DeadlineStream, EndsAtItsSize) {
   for (const std::size_t most : {0u, 1u, 100u, 4096u, 5000u}) {
     Line line;
-    DeadlineStream stream(line.ends[0]);
+    os::Line plain(line.ends[0]);
+    DeadlineStream stream(plain);
     line.say(std::string(20'000, 'a'));
     stream.begin(Clock::now() + 30s, most);
     EXPECT_EQ(readAll(stream, 777).size(), most);
@@ -65,7 +67,8 @@ TEST(DeadlineStream, EndsAtItsSize) {
 
 TEST(DeadlineStream, EndsAtItsMomentHoweverSlowlyBytesCome) {
   Line line;
-  DeadlineStream stream(line.ends[0]);
+  os::Line plain(line.ends[0]);
+  DeadlineStream stream(plain);
   std::atomic<bool> ending{false};
   std::thread drip([&] {
     while (!ending.load()) {
@@ -83,7 +86,8 @@ TEST(DeadlineStream, EndsAtItsMomentHoweverSlowlyBytesCome) {
 
 TEST(DeadlineStream, SilenceAndAMomentThatIsOverAreCut) {
   Line line;
-  DeadlineStream stream(line.ends[0]);
+  os::Line plain(line.ends[0]);
+  DeadlineStream stream(plain);
   stream.begin(Clock::now() - 1s, 100);
   char byte = 0;
   EXPECT_EQ(stream.read(&byte, 1), -1);
@@ -97,7 +101,8 @@ TEST(DeadlineStream, SilenceAndAMomentThatIsOverAreCut) {
 /// request is left.
 TEST(DeadlineStream, BeginsWithWhatWasReadBefore) {
   Line line;
-  DeadlineStream stream(line.ends[0], "abc");
+  os::Line plain(line.ends[0]);
+  DeadlineStream stream(plain, "abc");
   line.say("def");
   stream.begin(Clock::now() + 30s, 3);
   char bytes[2];
@@ -110,7 +115,8 @@ TEST(DeadlineStream, BeginsWithWhatWasReadBefore) {
 
 TEST(DeadlineStream, AnAnswerThatIsNotTakenOffEnds) {
   Line line;
-  DeadlineStream stream(line.ends[0]);
+  os::Line plain(line.ends[0]);
+  DeadlineStream stream(plain);
   stream.answerWithin(0ms, 30s);
   EXPECT_FALSE(stream.is_writable());
   EXPECT_EQ(stream.write("abc", 3), -1);
@@ -127,7 +133,8 @@ TEST(DeadlineStream, AnAnswerThatIsNotTakenOffEnds) {
 
 TEST(DeadlineStream, WritingToWhoLeftFailsAndKillsNobody) {
   Line line;
-  DeadlineStream stream(line.ends[0]);
+  os::Line plain(line.ends[0]);
+  DeadlineStream stream(plain);
   EXPECT_TRUE(stream.is_writable());
   EXPECT_EQ(stream.write("abc", 3), 3);
   line.leave();

@@ -52,7 +52,7 @@ class Served {
     settings_.place.display = true;  // a person may perform; none does here
     thread_ = std::thread([this] {
       try {
-        serveConsole(settings_, [this](const std::string& url) { say(url); });
+        serveConsole(settings_, [this](const OpenedConsole& opened) { say(opened.url); });
       } catch (const std::exception& e) {
         say(std::string("! ") + e.what());
       }

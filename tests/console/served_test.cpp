@@ -61,12 +61,12 @@ TEST(Served, AnErrorOnTheWayEndsItWithWords) {
   settings.place.records = (folder / "records.sqlite").string();
   settings.place.sockets = sockets.path();
   EXPECT_THROW(serveConsole(settings,
-                            [](const std::string&) {
+                            [](const OpenedConsole&) {
                               throw Error("has no room left", "the disk", "Make room");
                             }),
                Error);
   std::filesystem::create_directories(folder / "home" / "address");  // cannot be written
-  EXPECT_THROW(serveConsole(settings, [](const std::string&) { ADD_FAILURE() << "it served"; }),
+  EXPECT_THROW(serveConsole(settings, [](const OpenedConsole&) { ADD_FAILURE() << "it served"; }),
                Error);
 }
 
@@ -235,7 +235,7 @@ TEST(Served, OpenToOthersOnlyWithAToken) {
     ConsoleSettings settings;
     settings.address = address;
     EXPECT_FALSE(isLoopback(address)) << address;
-    EXPECT_THROW(serveConsole(settings, [](const std::string&) { ADD_FAILURE() << "it served"; }),
+    EXPECT_THROW(serveConsole(settings, [](const OpenedConsole&) { ADD_FAILURE() << "it served"; }),
                  UsageError)
         << address;
   }

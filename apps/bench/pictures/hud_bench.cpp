@@ -12,7 +12,6 @@
 #include "anatomy/parametric/phantoms.h"
 #include "apps/bench/bench.h"
 #include "apps/bench/pictures/session_frames.h"
-#include "apps/bench/pictures/skin_ray.h"
 #include "apps/bench/pictures/tool_outline.h"
 #include "apps/bench/timing.h"
 #include "apps/evidence/recorded_show.h"

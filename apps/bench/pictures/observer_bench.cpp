@@ -13,7 +13,7 @@
 #include "apps/bench/bench_patients.h"
 #include "apps/bench/pictures/observer.h"
 #include "apps/bench/pictures/session_frames.h"
-#include "apps/bench/pictures/skin_ray.h"
+#include "apps/bench/pictures/tool_outline.h"
 #include "apps/bench/timing.h"
 #include "scene/actors/instrument.h"
 #include "scene/actors/tool_shadow.h"

@@ -22,11 +22,11 @@ if [ "$part" = week ]; then  # with a study that ends within the week
   ln -s "$top"/assets/* "$work/assets" 2>/dev/null || true  # "protocols" is there
   cp -r "$top/assets/protocols/." "$here/week_study.json" "$work/assets/protocols"
   export PALPA_ASSETS=$work/assets
-  # As where tablets come to it: it asks for a token.
+  # As where tablets come to it: it asks for a token, and is encrypted.
   head -c 24 /dev/urandom | base64 >"$work/token" && chmod 600 "$work/token"
   PALPA_CONSOLE_TOKEN=$(cat "$work/token")
   export PALPA_CONSOLE_TOKEN
-  more=(--token-file "$work/token" --name station.test)
+  more=(--tls --token-file "$work/token" --name station.test)
 fi
 
 if [ "$part" = week ] && [ "${PALPA_FULL:-0}" = 1 ]; then  # a room that can be filmed: by a film

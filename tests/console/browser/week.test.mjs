@@ -226,7 +226,7 @@ test(
     await hand.press(named("button", "Show a PIN for the trainee's own device"));
     const pin = await page.locator(".pin").textContent();
     await e.look("pin");
-    const telephone = await e.browser.newContext({ viewport: { width: 390, height: 844 } });
+    const telephone = await e.newContext({ viewport: { width: 390, height: 844 } });
     try {
       const own = await e.newPage(telephone);
       await own.goto(`${e.base}#/mine`);

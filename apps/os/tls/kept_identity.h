@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+
+#include "apps/os/tls/certificates.h"
+
+namespace palpa::os {
+
+/// An identity in its folder, and the authority that vouches for it.
+struct KeptIdentity {
+  Identity identity;
+  std::filesystem::path authority;  ///< its certificate, for those who shall believe it
+};
+
+/// From `folder` (authority.pem and .key, own.pem and .key; the keys are for their owner alone),
+/// made there where it is missing, no pair, or of another authority; a new one of the same
+/// authority also when other names are wished for, or 30 days before its end. So whoever believes
+/// the authority has nothing to do for ten years. Throws Error where the folder cannot be written,
+/// UsageError for names that no certificate can hold.
+KeptIdentity keptIdentity(const std::filesystem::path& folder, const IdentityWish& wish,
+                          std::chrono::sys_seconds now);
+
+/// From two files. Throws UsageError where one cannot be read, they are no pair, or what they say
+/// is over.
+Identity identityIn(const std::filesystem::path& certificate, const std::filesystem::path& key,
+                    std::chrono::sys_seconds now);
+
+}  // namespace palpa::os
