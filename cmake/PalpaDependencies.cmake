@@ -5,7 +5,7 @@ find_package(nlohmann_json 3 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(OpenSSL REQUIRED)  # SHA-256, random bytes, Base64
+find_package(OpenSSL REQUIRED)  # SHA-256, random bytes, Base64, encrypted lines
 find_package(Boost 1.70 REQUIRED)  # headers only: Boost.Math, Boost.UUID
 find_package(apriltag REQUIRED)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d videoio)

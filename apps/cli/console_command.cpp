@@ -82,11 +82,10 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
 void sayHowItIsKnown(const console::OpenedConsole& opened) {
   if (opened.fingerprint.empty()) return;
   std::printf("It is encrypted. Its certificate's SHA-256: %s\n", opened.fingerprint.c_str());
-  if (!opened.authority.empty())
-    std::printf(
-        "A tablet believes it when %s was installed there as an authority; else it warns once: "
-        "compare that number\n",
-        opened.authority.c_str());
+  if (opened.authority.empty()) return;
+  std::printf("A tablet warns, unless this authority is installed there%s: %s, SHA-256 %s\n",
+              opened.authority_is_new ? " (it is new)" : "", opened.authority.c_str(),
+              opened.authority_fingerprint.c_str());
 }
 
 void serve(const ConsoleOptions& o) {
@@ -134,9 +133,10 @@ void addConsole(CLI::App& program) {
                     "always encrypted)");
   CLI::Option* const certificate =
       command
-          ->add_option("--tls-certificate", o->certificate,
-                       "Certificate of the centre's own (PEM, with those above it); default: one "
-                       "that the console makes")
+          ->add_option(
+              "--tls-certificate", o->certificate,
+              "Certificate of the centre's own (PEM, with those above it; best with an ECDSA "
+              "key); default: one that the console makes")
           ->type_name("FILE");
   CLI::Option* const key =
       command->add_option("--tls-key", o->key, "Its key (PEM, without a password)")

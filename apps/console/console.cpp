@@ -1,6 +1,7 @@
 #include "apps/console/console.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <thread>
@@ -55,48 +56,91 @@ std::string bracketed(const std::string& host) {
 
 bool isAnyAddress(const std::string& address) { return address == "0.0.0.0" || address == "::"; }
 
-/// By which it may be called.
+/// By which it may be called, beside what a certificate of the centre's own says.
 std::vector<std::string> namesOf(const ConsoleSettings& s) {
-  std::vector<std::string> names = s.names;
+  std::vector<std::string> names;
+  for (const std::string& name : s.names) names.push_back(os::usualForm(name));
   for (const char* own : {"127.0.0.1", "localhost", "::1"}) names.push_back(own);
-  if (!isAnyAddress(s.address)) names.push_back(s.address);
+  if (!isAnyAddress(s.address)) names.push_back(os::usualForm(s.address));
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
-std::vector<std::string> hostsOf(const ConsoleSettings& s, int port) {
-  std::vector<std::string> hosts;
-  for (const std::string& name : namesOf(s))
-    hosts.push_back(bracketed(name) + ":" + std::to_string(port));
-  return hosts;
-}
+/// What stands between the console and whoever listens in; nothing on this computer alone. A
+/// certificate that was renewed is used from within the hour.
+class Encryption {
+ public:
+  explicit Encryption(const ConsoleSettings& s) : settings_(s) {
+    if (!s.tls && s.certificate.empty() && isLoopback(s.address)) return;
+    const os::KeptIdentity own = identity();
+    server_ = std::make_unique<os::TlsServer>(own.identity);
+    facts_ = os::factsOf(own.identity.certificate, "the certificate");
+    authority_ = own.authority;
+    authority_is_new_ = own.is_new;
+  }
+  const os::TlsServer* server() const { return server_.get(); }
+  const char* scheme() const { return server_ ? "https" : "http"; }
 
-/// What stands between the console and whoever listens in; nothing on this computer alone.
-struct Encryption {
-  std::unique_ptr<os::TlsServer> tls;
-  OpenedConsole opened;
+  /// Under which the console answers, with the port where a browser says it.
+  std::vector<std::string> hosts(int port) const {
+    std::vector<std::string> names = namesOf(settings_), hosts;
+    for (const std::string& name : facts_.reached_by)
+      if (name.find('*') == std::string::npos) names.push_back(name);
+    for (const std::string& name : names) {
+      hosts.push_back(bracketed(name) + ":" + std::to_string(port));
+      if (port == (server_ ? 443 : 80)) hosts.push_back(bracketed(name));
+    }
+    return hosts;
+  }
+  /// What is said when it can be used: by a name that the certificate has.
+  OpenedConsole opened(int port) const {
+    std::string host = isAnyAddress(settings_.address) ? "127.0.0.1" : settings_.address;
+    const std::vector<std::string>& known = facts_.reached_by;
+    if (!known.empty() && std::find(known.begin(), known.end(), host) == known.end() &&
+        known.front().find('*') == std::string::npos)
+      host = known.front();
+    return {scheme() + std::string("://") + bracketed(host) + ":" + std::to_string(port) + "/",
+            facts_.fingerprint, authority_,
+            authority_.empty() ? "" : os::factsOf(*readWhole(authority_), "").fingerprint,
+            authority_is_new_};
+  }
+  /// Now and then. What goes wrong is said; the certificate in use stays.
+  void look() {
+    if (!server_ || runtime::ServingClock::now() < next_) return;
+    next_ = runtime::ServingClock::now() + kLook;
+    try {
+      const os::KeptIdentity own = identity();
+      const os::CertificateFacts facts = os::factsOf(own.identity.certificate, "the certificate");
+      if (facts.fingerprint != facts_.fingerprint) server_->use(own.identity);
+      facts_ = facts;
+    } catch (const Error& e) {
+      std::fprintf(stderr, "The certificate could not be renewed: %s\n", e.what());
+    }
+  }
+
+ private:
+  static constexpr std::chrono::hours kLook{1};
+  os::KeptIdentity identity() const {
+    constexpr std::size_t kLongest = 45;  // of a name to which more words are added
+    const ConsoleSettings& s = settings_;
+    const auto now = utcSecondsOf(runtime::utcNow());
+    if (!s.certificate.empty()) return {os::identityIn(s.certificate, s.key, now), {}};
+    const std::string at = !s.names.empty()          ? s.names.front()
+                           : isAnyAddress(s.address) ? "this computer"
+                                                     : s.address;
+    return os::keptIdentity(
+        s.place.home / "tls",
+        {.name = ("Palpa console at " + at).substr(0, kLongest), .reached_by = namesOf(s)}, now);
+  }
+
+  const ConsoleSettings& settings_;
+  std::unique_ptr<os::TlsServer> server_;
+  os::CertificateFacts facts_;
+  std::filesystem::path authority_;
+  bool authority_is_new_ = false;
+  runtime::ServingClock::time_point next_ = runtime::ServingClock::now() + kLook;
 };
-
-os::KeptIdentity identityOf(const ConsoleSettings& s) {
-  constexpr std::size_t kLongest = 45;  // of a name to which more words are added
-  const auto now = utcSecondsOf(runtime::utcNow());
-  if (!s.certificate.empty()) return {os::identityIn(s.certificate, s.key, now), {}};
-  const std::string at = !s.names.empty()          ? s.names.front()
-                         : isAnyAddress(s.address) ? "this computer"
-                                                   : s.address;
-  return os::keptIdentity(
-      s.place.home / "tls",
-      {.name = ("Palpa console at " + at).substr(0, kLongest), .reached_by = namesOf(s)}, now);
-}
-
-Encryption encryptionOf(const ConsoleSettings& s) {
-  if (!s.tls && s.certificate.empty() && isLoopback(s.address)) return {};
-  const os::KeptIdentity own = identityOf(s);
-  return {
-      std::make_unique<os::TlsServer>(own.identity),
-      {"", os::factsOf(own.identity.certificate, "the certificate").fingerprint, own.authority}};
-}
 
 /// Where it listens: the port asked for, or any free one.
 int portOf(WebServer& server, const ConsoleSettings& s) {
@@ -161,11 +205,10 @@ void serveConsole(const ConsoleSettings& s,
   const os::InterruptNote interrupt(os::InterruptNote::Again::noted);
   Refusals refusals(s.place.home / "refused.log");
   Guard guard(s.token);
-  Encryption encryption = encryptionOf(s);
-  WebServer server(guard, refusals, encryption.tls.get());
+  Encryption encryption(s);
+  WebServer server(guard, refusals, encryption.server());
   const int port = portOf(server, s);
-  const std::string scheme = encryption.tls ? "https" : "http";
-  guard.answerTo(hostsOf(s, port), scheme);
+  guard.answerTo(encryption.hosts(port), encryption.scheme());
   ConsolePlace place = s.place;
   place.reached = !isLoopback(s.address) || !s.names.empty();
   Console console(place, guard, s.tone);
@@ -180,15 +223,14 @@ void serveConsole(const ConsoleSettings& s,
   addOwnRoutes(server, console);
   checkHealth(console);
   const Serving serving(server);
-  encryption.opened.url = scheme + "://" +
-                          bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) + ":" +
-                          std::to_string(port) + "/";
-  only.announce(encryption.opened.url);
-  ready(encryption.opened);
+  const OpenedConsole opened = encryption.opened(port);
+  only.announce(opened.url);
+  ready(opened);
   while (!interrupt.noted()) {
     runtime::rest(kRound);
     console.sessions.look();
     server.noteTurnedAway();
+    encryption.look();
   }
 }
 

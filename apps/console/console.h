@@ -27,6 +27,8 @@ struct OpenedConsole {
   std::string url;
   std::string fingerprint;          ///< of its certificate; empty: it is not encrypted
   std::filesystem::path authority;  ///< who vouches for it, as a file; empty: the centre's own
+  std::string authority_fingerprint;
+  bool authority_is_new = false;  ///< who believed the one before does not know it
 };
 
 /// This computer alone can reach it.

@@ -99,9 +99,21 @@ void Lobby::letIn(int listener) {
       return ways_.away();
     }
     os::sendAtOnce(socket);
-    waiting_.push_back(std::make_unique<Caller>(ways_.line(socket)));
+    std::unique_ptr<os::Line> line = lineOver(socket);
+    if (!line) return ways_.away();
+    waiting_.push_back(std::make_unique<Caller>(std::move(line)));
     if (!hear(waiting_.back())) waiting_.pop_back();
     makeRoom();
+  }
+}
+
+/// Null where there is no memory left for it: that one goes.
+std::unique_ptr<os::Line> Lobby::lineOver(int socket) const {
+  try {
+    return ways_.line(socket);
+  } catch (const std::exception&) {
+    os::closeSocket(socket);
+    return nullptr;
   }
 }
 
@@ -135,6 +147,7 @@ void Lobby::hearAll() {
 bool Lobby::hear(std::unique_ptr<Caller>& caller) {
   char bytes[4096];
   bool left = false;
+  const bool greeted = caller->line->greets();
   for (std::size_t count = 1; count > 0 && caller->said.size() < kLongestHead;) {
     const std::optional<std::size_t> got = caller->line->receiveSome(bytes, sizeof bytes);
     left = !got;
@@ -142,6 +155,7 @@ bool Lobby::hear(std::unique_ptr<Caller>& caller) {
     if (count > 0 && caller->said.empty()) caller->since = Clock::now();
     caller->said.append(bytes, count);
   }
+  if (greeted && !caller->line->greets()) caller->since = Clock::now();  // now it may speak
   const std::optional<std::size_t> stop = stopLengthOf(*caller);
   if (stop && caller->said.size() >= *stop) return ways_.stop(std::move(caller)), false;
   const bool whole = !stop && endOfHead(caller->said) != std::string::npos;
@@ -165,8 +179,9 @@ std::optional<std::size_t> Lobby::stopLengthOf(const Caller& caller) const {
 }
 
 bool Lobby::isOver(const Caller& caller) const {
-  const auto patience = caller.said.empty() ? (crowded() ? kCrowdedSilent : kSilent)
-                                            : (crowded() ? kCrowdedHeadWithin : kHeadWithin);
+  const bool silent = caller.said.empty() && !caller.line->greets();
+  const auto patience = silent ? (crowded() ? kCrowdedSilent : kSilent)
+                               : (crowded() ? kCrowdedHeadWithin : kHeadWithin);
   return Clock::now() - caller.since > patience;
 }
 

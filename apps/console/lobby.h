@@ -66,6 +66,7 @@ class Lobby {
   using Clock = runtime::ServingClock;
   void wait(int listener);
   void letIn(int listener);
+  std::unique_ptr<os::Line> lineOver(int socket) const;
   void takeBack();
   void makeRoom();
   void hearAll();

@@ -9,7 +9,7 @@ namespace palpa::console {
 
 /// Where the console works: what it keeps, and what it hands to the commands that it starts.
 struct ConsolePlace {
-  std::filesystem::path home;   ///< sessions, jobs, settings, what was refused
+  std::filesystem::path home;   ///< sessions, jobs, settings, certificates, what was refused
   std::filesystem::path pages;  ///< index.html and the rest
   std::string records;          ///< of trainees: a file or a server
   std::string sockets;          ///< folder of local sockets

@@ -79,6 +79,8 @@ class Line {
   }
   /// Bytes are here to be received although the socket gives none.
   virtual bool holdsMore() const { return false; }
+  /// The other side has begun to say who it is, and the two do not understand each other yet.
+  virtual bool greets() const { return false; }
   /// Nothing more will be said; it may still be listened to.
   virtual void endWriting() { os::endWriting(socket_); }
 

@@ -228,7 +228,8 @@ std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy, bool 
                                   {"What it is for", taxonomy.purpose, ""},
                                   {"What is changed", taxonomy.property, ""}};
   if (on_bench)
-    facts.push_back({"Here", "simulated", "what is called real is a model on the virtual bench"});
+    facts.push_back({"Here", "simulated",
+                     "at least a part of what is called real is a model on the virtual bench"});
   return facts;
 }
 

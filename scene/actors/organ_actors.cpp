@@ -76,7 +76,6 @@ vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyDat
   look->SetDiffuse(0.76);
   look->SetSpecular(0.18);
   look->SetSpecularPower(24);
-  if (organ.organ == Organ::skin) lightAsSkin(*actor);
   return actor;
 }
 
@@ -153,6 +152,7 @@ void OrganActors::add(const anatomy::OrganSurface& organ) {
   const vtkSmartPointer<vtkPolyData> surface = polyDataOf(organ.mesh);
   if (!skin_ && organ.organ == Organ::skin) skin_ = surface;
   OrganPart part{actorOf(organ, surface), surface, organ.organ, false};
+  if (part.organ == Organ::skin) lightAsSkin(*part.actor);
   // The far side of a translucent surface would blend a second time.
   if (coversOrgans(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
   renderer_.AddActor(part.actor);

@@ -12,7 +12,7 @@ constexpr char kLight[] = R"glsl(
   {
     const vec3 under = vec3(0.30, 0.12, 0.08);
     const float rough = 0.35, f = 0.028;
-    vec3 toEye = normalize(-vertexVC.xyz);
+    vec3 toEye = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);
     vec3 half_way = normalize(toEye - lightDirectionVC0);
     float nl = dot(normalVCVSOutput, -lightDirectionVC0);
     float nv = max(dot(normalVCVSOutput, toEye), 1e-3);

@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
+#include <atomic>
 #include <chrono>
+#include <future>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "apps/console/web_server.h"
 #include "apps/os/tls/kept_identity.h"
 #include "apps/runtime/clock.h"
+#include "tests/console/visitor.h"
 #include "tests/support/scratch_folder.h"
 
 /// The web server behind its encryption, asked as a browser asks it.
@@ -27,6 +27,10 @@ struct Encrypted {
     guard.answerTo({here}, "https");
     server.Get("/long", [this](const httplib::Request&, httplib::Response& r) {
       r.set_content(answer, "text/plain");
+    });
+    server.Get("/held", [this](const httplib::Request&, httplib::Response&) {
+      ++held;
+      all_go.wait();
     });
     server.Get("/enter", [this](const httplib::Request&, httplib::Response& r) {
       r.set_header("Set-Cookie", guard.cookieText("palpa", "1"));
@@ -71,7 +75,10 @@ struct Encrypted {
   Refusals refusals{folder / "refused.log"};
   WebServer server{guard, refusals, &tls};
   std::string here;
-  int port = 0, stops = 0;
+  int port = 0;
+  std::atomic<int> stops{0}, held{0};
+  std::promise<void> let_go;
+  std::shared_future<void> all_go = let_go.get_future().share();
   std::thread serving;
 };
 
@@ -102,13 +109,22 @@ TEST(Encrypted, APageOfThePlainAddressIsAnothersAndCookiesAreKept) {
   EXPECT_NE(entered->get_header_value("Set-Cookie").find("; Secure"), std::string::npos);
 }
 
+/// Although all that its own address may ask at once is being answered, for as long as the test
+/// likes.
 TEST(Encrypted, TheEmergencyStopHasItsOwnWayHereToo) {
   Encrypted console;
+  std::vector<std::thread> asking;
+  for (std::size_t i = 0; i < RequestThreads::kMostOfOne; ++i)
+    asking.emplace_back([&] { console.browser()->Get("/held"); });
+  while (console.held < static_cast<int>(RequestThreads::kMostOfOne)) runtime::rest(5ms);
+  const auto turned_away = console.browser()->Get("/long");
+  EXPECT_TRUE(!turned_away || turned_away->status == 503);
   const auto stopped = console.browser()->Post("/api/sessions/a1/stop", console.ofAPage("https://"),
                                                "{}", "application/json");
-  ASSERT_TRUE(stopped) << httplib::to_string(stopped.error());
-  EXPECT_EQ(stopped->status, 202);
+  EXPECT_TRUE(stopped && stopped->status == 202);
   EXPECT_EQ(console.stops, 1);
+  console.let_go.set_value();
+  for (std::thread& one : asking) one.join();
 }
 
 TEST(Encrypted, WhoBelievesAnotherAuthorityAsksNothing) {
@@ -128,23 +144,18 @@ TEST(Encrypted, WhoSpeaksPlainHttpIsToldSo) {
   EXPECT_EQ(answer->body, "This address is encrypted: begin it with https://\n");
 }
 
-/// Forty who knock and say nothing keep nobody out.
+/// As many as there are places, of other addresses; half of them greet by halves.
 TEST(Encrypted, SilentCallersTakeNobodysPlace) {
   const Encrypted console;
-  std::vector<int> sockets;
-  for (int i = 0; i < 40; ++i) {
-    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in there{};
-    there.sin_family = AF_INET;
-    there.sin_port = htons(static_cast<std::uint16_t>(console.port));
-    there.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(socket, reinterpret_cast<const sockaddr*>(&there), sizeof there), 0);
-    sockets.push_back(socket);
-  }
+  std::vector<std::unique_ptr<Visitor>> silent;
+  for (const char* from : {"127.0.0.2", "127.0.0.3", "127.0.0.4", "127.0.0.5"})
+    for (std::size_t i = 0; i < Lobby::kMostOfOne; ++i) {
+      silent.push_back(std::make_unique<Visitor>(console.port, from));
+      if (i % 2 == 0) silent.back()->say("\x16\x03\x01\x02");
+    }
   const auto answer = console.browser()->Get("/long");
-  ASSERT_TRUE(answer);
+  ASSERT_TRUE(answer) << httplib::to_string(answer.error());
   EXPECT_EQ(answer->status, 200);
-  for (const int socket : sockets) ::close(socket);
 }
 
 }  // namespace

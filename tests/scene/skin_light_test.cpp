@@ -38,7 +38,7 @@ anatomy::OrganSurface patchFacing(const Vec3& n) {
   return skin;
 }
 
-Pixel seen(const Vec3& n) {
+Pixel seen(const Vec3& n, bool parallel = false) {
   anatomy::Patient patient;
   patient.organs.push_back(patchFacing(n));
   vtkRenderWindow& window = *offscreen().window();
@@ -52,6 +52,7 @@ Pixel seen(const Vec3& n) {
     OrganActors organs(*renderer, patient);
     organs.setStyle(SkinStyle::solid);
     aim(*renderer->GetActiveCamera(), kCamera, Pose::Identity(), {0.05, 2});
+    renderer->GetActiveCamera()->SetParallelProjection(parallel);
     window.Render();
     image = pixelsOf(window);
   }
@@ -88,6 +89,7 @@ TEST(SkinLight, FollowsItsLawWhicheverWayTheSkinFaces) {
     const Vec3 n(std::sin(down) * std::cos(round), std::sin(down) * std::sin(round),
                  std::cos(down));
     EXPECT_LE(difference(seen(n), expected(n)), 2) << "facing " << n.transpose();
+    EXPECT_LE(difference(seen(n, true), expected(n)), 2) << "in parallel, " << n.transpose();
     lit += n.dot(kToLight) > 0;
     beyond += n.dot(kToLight) < 0;
   }

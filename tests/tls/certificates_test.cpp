@@ -34,7 +34,7 @@ TEST(Certificates, SayWhoTheyAreOfAndForHowLong) {
 
 TEST(Certificates, AreVouchedForByTheirOwnAuthorityWhileTheyLast) {
   const Identity made = makeIdentity(console(), authority(), kNow);
-  const Identity stranger = makeAuthority("Authority of a room", days{3650}, kNow);
+  const Identity stranger = makeAuthority("Authority of a room", {}, days{3650}, kNow);
   EXPECT_TRUE(isVouchedFor(made.certificate, authority().certificate, kNow));
   EXPECT_TRUE(isVouchedFor(made.certificate, authority().certificate, kNow + days{396}));
   EXPECT_FALSE(isVouchedFor(made.certificate, authority().certificate, kNow + days{398}));
@@ -49,6 +49,33 @@ TEST(Certificates, NobodyButTheAuthorityVouches) {
   const Identity forged = makeIdentity(console(), made, kNow);
   EXPECT_FALSE(isVouchedFor(forged.certificate, authority().certificate, kNow));
   EXPECT_FALSE(isVouchedFor(forged.certificate, made.certificate, kNow));
+}
+
+/// So that a stolen key opens no bank.
+TEST(Certificates, AnAuthorityVouchesWithinItsHouseAlone) {
+  const Identity of_names =
+      makeAuthority("Authority", {"station3.centre.org", "131.152.1.7"}, days{3650}, kNow);
+  const auto vouches = [](const Identity& by, const std::string& name) {
+    const Identity made = makeIdentity({.name = "a", .reached_by = {name}}, by, kNow);
+    return isVouchedFor(made.certificate, by.certificate, kNow);
+  };
+  for (const char* name : {"localhost", "station3.local", "127.0.0.1", "10.1.2.3", "172.20.0.1",
+                           "192.168.1.20", "169.254.7.7", "::1", "fd00::7", "fe80::1"})
+    EXPECT_TRUE(vouches(authority(), name)) << name;
+  for (const char* name : {"bank.example", "local.example", "131.152.1.7", "172.32.0.1",
+                           "2001:db8::1", "::2", "station3.centre.org"})
+    EXPECT_FALSE(vouches(authority(), name)) << name;
+  EXPECT_TRUE(vouches(of_names, "station3.centre.org"));
+  EXPECT_TRUE(vouches(of_names, "131.152.1.7"));
+  EXPECT_FALSE(vouches(of_names, "station4.centre.org"));
+  EXPECT_FALSE(vouches(of_names, "131.152.1.8"));
+}
+
+TEST(Certificates, NamesHaveOneForm) {
+  EXPECT_EQ(usualForm("Station3.LOCAL"), "station3.local");
+  EXPECT_EQ(usualForm("FD00:0:0::1"), "fd00::1");
+  EXPECT_EQ(usualForm("192.168.1.20"), "192.168.1.20");
+  EXPECT_THROW(usualForm("a,b"), UsageError);
 }
 
 TEST(Certificates, AKeyBelongsToOne) {
@@ -105,6 +132,8 @@ TEST(KeptIdentity, FollowsTheNamesAndWhatWasDamaged) {
   Kept kept;
   const std::string first = kept.own(console(), kNow), authority = kept.authority();
   IdentityWish wish = console();
+  wish.reached_by = {"Station3.local", "0:0:0:0:0:0:0:1", "192.168.1.20"};
+  EXPECT_EQ(kept.own(wish, kNow), first) << "the same names otherwise written";
   wish.reached_by.push_back("10.0.0.7");
   const std::string named = kept.own(wish, kNow);
   EXPECT_NE(named, first);
@@ -116,7 +145,20 @@ TEST(KeptIdentity, FollowsTheNamesAndWhatWasDamaged) {
   }
   writeWhole(kept.folder / "authority.key", "");
   kept.own(wish, kNow);
-  EXPECT_NE(kept.authority(), authority);
+  const std::string second = kept.authority();
+  EXPECT_NE(second, authority);
+  wish.reached_by.push_back("station3.centre.org");  // beyond its house
+  EXPECT_TRUE(keptIdentity(kept.folder.path(), wish, kNow).is_new);
+  EXPECT_FALSE(keptIdentity(kept.folder.path(), wish, kNow).is_new);
+  EXPECT_NE(kept.authority(), second);
+}
+
+TEST(KeptIdentity, ANameThatIsNoneLeavesNothing) {
+  Kept kept;
+  IdentityWish wish = console();
+  wish.reached_by = {"b\xC3\xBCro"};
+  EXPECT_THROW(kept.own(wish, kNow), UsageError);
+  EXPECT_TRUE(std::filesystem::is_empty(kept.folder.path()));
 }
 
 TEST(KeptIdentity, ItsKeysAreForTheirOwnerAlone) {
@@ -130,11 +172,13 @@ TEST(IdentityInFiles, IsAPairThatLastsStill) {
   const test::ScratchFolder folder("identity_in_files");
   const Identity made = makeIdentity(console(), authority(), kNow);
   writeWhole(folder / "a.pem", made.certificate);
-  writeWhole(folder / "a.key", made.key);
-  writeWhole(folder / "b.key", authority().key);
+  writeWhole(folder / "a.key", made.key, Lasts::no, Readers::owner);
+  writeWhole(folder / "b.key", authority().key, Lasts::no, Readers::owner);
+  writeWhole(folder / "open.key", made.key);
   EXPECT_EQ(identityIn(folder / "a.pem", folder / "a.key", kNow).key, made.key);
   EXPECT_THROW(identityIn(folder / "a.pem", folder / "b.key", kNow), UsageError);
   EXPECT_THROW(identityIn(folder / "a.pem", folder / "none", kNow), UsageError);
+  EXPECT_THROW(identityIn(folder / "a.pem", folder / "open.key", kNow), UsageError);
   EXPECT_THROW(identityIn(folder / "a.key", folder / "a.key", kNow), UsageError);
   EXPECT_THROW(identityIn(folder / "a.pem", folder / "a.key", kNow + days{397}), UsageError);
 }

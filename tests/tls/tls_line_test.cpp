@@ -91,6 +91,10 @@ class Visitor {
     all.resize(at);
     return all;
   }
+  void renewsKeys() {
+    EXPECT_EQ(SSL_key_update(ssl_.get(), SSL_KEY_UPDATE_NOT_REQUESTED), 1);
+    EXPECT_EQ(SSL_do_handshake(ssl_.get()), 1);
+  }
   void leave() { SSL_shutdown(ssl_.get()); }
 
  private:
@@ -167,7 +171,7 @@ TEST(TlsLine, WhoListensInUnderstandsNothing) {
 
 TEST(TlsLine, WhoBelievesAnotherAuthorityGoes) {
   Ends ends;
-  const Identity stranger = makeAuthority("Authority of a room", days{3650}, kNow);
+  const Identity stranger = makeAuthority("Authority of a room", {}, days{3650}, kNow);
   std::thread browser([&] {
     Visitor visitor(ends.both[1], stranger.certificate);
     EXPECT_FALSE(visitor.enters());
@@ -191,15 +195,51 @@ TEST(TlsLine, WhoSpeaksPlainHttpIsToldSo) {
             std::string::npos);
 }
 
+/// Who does so without end is not listened to without end.
+TEST(TlsLine, PlainHttpWithoutEndHoldsNobodyUp) {
+  Ends ends;
+  const std::string said = "GET / HTTP/1.1\r\n" + longText();
+  std::thread talks([&] {
+    while (::send(ends.both[1], said.data(), said.size(), MSG_NOSIGNAL) > 0) continue;
+  });
+  char bytes[100];
+  ready(ends.both[0], Wait::to_read, 5000);
+  EXPECT_FALSE(ends.line->receiveSome(bytes, sizeof bytes));
+  endBoth(ends.both[0]);
+  talks.join();
+}
+
+/// New keys are made one at a time: between two of them others have their turn.
+TEST(TlsLine, NewKeysWithoutEndHoldNobodyUp) {
+  Ends ends;
+  std::thread browser([&] {
+    Visitor visitor(ends.both[1], authority().certificate);
+    ASSERT_TRUE(visitor.enters());
+    visitor.say("x");
+    for (int i = 0; i < 5; ++i) visitor.renewsKeys();
+  });
+  EXPECT_EQ(ends.hear(1), "x");
+  browser.join();
+  char byte = 0;
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(ends.line->receiveSome(&byte, 1), 0u);
+    EXPECT_TRUE(ready(ends.both[0], Wait::to_read, 0)) << i;
+  }
+  EXPECT_FALSE(ends.line->greets()) << "they understand each other all the while";
+  EXPECT_EQ(ends.line->sendSome("y", 1), 1u);
+}
+
 TEST(TlsLine, GarbageSilenceAndHalfAGreetingHoldNobodyUp) {
   for (const std::string& said : {std::string(500, '\xff'), std::string("\x16\x03\x01\x02")}) {
     Ends ends;
     char bytes[100];
     EXPECT_EQ(ends.line->receiveSome(bytes, sizeof bytes), 0u) << "silence is waited for";
     EXPECT_EQ(ends.line->sendSome("a", 1), 0u) << "nobody is there yet";
+    EXPECT_FALSE(ends.line->greets());
     sendSome(ends.both[1], said.data(), said.size());
     const auto got = ends.line->receiveSome(bytes, sizeof bytes);
     EXPECT_EQ(got.has_value(), said.size() == 4) << "half a greeting may go on";
+    EXPECT_EQ(ends.line->greets(), said.size() == 4);
     ends.leave();
     EXPECT_FALSE(ends.line->receiveSome(bytes, sizeof bytes));
     EXPECT_FALSE(ends.line->sendSome("a", 1).value_or(0) > 0);
@@ -220,6 +260,23 @@ TEST(TlsLine, WritingToWhoLeftEndsNoProgram) {
   bool gone = false;
   for (int i = 0; i < 100 && !gone; ++i) gone = !ends.line->sendSome(text.data(), text.size());
   EXPECT_TRUE(gone);
+}
+
+TEST(TlsServer, TakesAnotherCertificateForThoseWhoComeLater) {
+  const Identity stranger = makeAuthority("Another authority", {}, days{3650}, kNow);
+  TlsServer renewed(makeIdentity({.name = "a", .reached_by = {"localhost"}}, stranger, kNow));
+  for (const bool known : {false, true}) {
+    Ends ends;
+    ends.line = renewed.lineOver(ends.both[0]);
+    renewed.use(makeIdentity({.name = "b", .reached_by = {"localhost"}}, authority(), kNow));
+    std::thread browser([&] {
+      Visitor visitor(ends.both[1], authority().certificate);
+      EXPECT_EQ(visitor.enters(), known);
+      endBoth(ends.both[1]);
+    });
+    ends.hear();
+    browser.join();
+  }
 }
 
 TEST(TlsServer, NeedsACertificateAndItsKey) {

@@ -1,6 +1,7 @@
 #include "apps/os/tls/certificates.h"
 
 #include <arpa/inet.h>
+#include <netinet/in.h>
 #include <openssl/asn1.h>
 #include <openssl/bn.h>
 #include <openssl/err.h>
@@ -48,11 +49,38 @@ std::string keyText(EVP_PKEY* key) {
   });
 }
 
-bool isAddress(const std::string& name) {
-  const std::unique_ptr<ASN1_OCTET_STRING, openssl::Freed<ASN1_OCTET_STRING_free>> address(
-      a2i_IPADDRESS(name.c_str()));
-  ERR_clear_error();
-  return address != nullptr;
+/// In its usual form; empty: it is none.
+std::string addressIn(const std::string& name) {
+  std::array<unsigned char, sizeof(in6_addr)> bytes{};
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  for (const int family : {AF_INET, AF_INET6})
+    if (::inet_pton(family, name.c_str(), bytes.data()) == 1 &&
+        ::inet_ntop(family, bytes.data(), text.data(), text.size()))
+      return text.data();
+  return "";
+}
+
+constexpr char kWithinAHouse[] =
+    "critical,permitted;DNS:local,permitted;DNS:localhost,permitted;IP:127.0.0.0/255.0.0.0,"
+    "permitted;IP:10.0.0.0/255.0.0.0,permitted;IP:172.16.0.0/255.240.0.0,"
+    "permitted;IP:192.168.0.0/255.255.0.0,permitted;IP:169.254.0.0/255.255.0.0,"
+    "permitted;IP:::1/ffff:ffff:ffff:ffff:ffff:ffff:ffff:ffff,permitted;IP:fc00::/fe00::,"
+    "permitted;IP:fe80::/ffc0::";
+
+/// Beside what lies within a house: these.
+std::string constraintsFor(const std::vector<std::string>& names) {
+  std::string text = kWithinAHouse;
+  for (const std::string& wished : names) {
+    const std::string name = usualForm(wished), address = addressIn(name);
+    text += ",permitted;";
+    if (address.empty())
+      text += "DNS:" + name;
+    else
+      text += "IP:" + name +
+              (address.find(':') == std::string::npos ? "/255.255.255.255"
+                                                      : "/ffff:ffff:ffff:ffff:ffff:ffff:ffff:ffff");
+  }
+  return text;
 }
 
 /// A comma or a line's end would begin another name.
@@ -68,9 +96,10 @@ void checkName(const std::string& name) {
 
 std::string otherNames(const std::vector<std::string>& names) {
   std::string text;
-  for (const std::string& name : names) {
-    checkName(name);
-    text += (text.empty() ? "" : ",") + std::string(isAddress(name) ? "IP:" : "DNS:") + name;
+  for (const std::string& wished : names) {
+    const std::string name = usualForm(wished);
+    text +=
+        (text.empty() ? "" : ",") + std::string(addressIn(name).empty() ? "DNS:" : "IP:") + name;
   }
   return text;
 }
@@ -141,7 +170,7 @@ std::chrono::sys_seconds momentOf(const ASN1_TIME* time) {
   return std::chrono::sys_seconds(std::chrono::seconds(::timegm(&parts)));
 }
 
-std::string addressIn(const ASN1_OCTET_STRING* bytes) {
+std::string addressOf(const ASN1_OCTET_STRING* bytes) {
   constexpr int kShort = 4;  // bytes of IPv4; else of IPv6
   std::array<char, INET6_ADDRSTRLEN> text{};
   const int family = ASN1_STRING_length(bytes) == kShort ? AF_INET : AF_INET6;
@@ -159,7 +188,7 @@ std::vector<std::string> otherNamesOf(X509* certificate) {
     if (one->type == GEN_DNS)
       names.emplace_back(reinterpret_cast<const char*>(ASN1_STRING_get0_data(one->d.dNSName)),
                          static_cast<std::size_t>(ASN1_STRING_length(one->d.dNSName)));
-    if (one->type == GEN_IPADD) names.push_back(addressIn(one->d.iPAddress));
+    if (one->type == GEN_IPADD) names.push_back(addressOf(one->d.iPAddress));
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -180,13 +209,23 @@ std::string fingerprintOf(const X509* certificate) {
 
 }  // namespace
 
-Identity makeAuthority(const std::string& name, std::chrono::days lasts,
-                       std::chrono::sys_seconds now) {
+std::string usualForm(const std::string& name) {
+  checkName(name);
+  if (std::string address = addressIn(name); !address.empty()) return address;
+  std::string small = name;
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
+}
+
+Identity makeAuthority(const std::string& name, const std::vector<std::string>& also_for,
+                       std::chrono::days lasts, std::chrono::sys_seconds now) {
   const Blank blank = blankFor(name, now, lasts);
   X509* const own = blank.certificate.get();
   must(X509_set_issuer_name(own, X509_get_subject_name(own)) == 1, "an authority");
   extend(own, own, NID_basic_constraints, "critical,CA:TRUE,pathlen:0");
   extend(own, own, NID_key_usage, "critical,keyCertSign,cRLSign");
+  extend(own, own, NID_name_constraints, constraintsFor(also_for));
   extend(own, own, NID_subject_key_identifier, "hash");
   return signedBy(blank, blank.key.get());
 }

@@ -25,12 +25,18 @@ struct IdentityWish {
   std::string name;                     ///< for people: "Palpa console of station3"
   std::vector<std::string> reached_by;  ///< of a server: host names and addresses in figures
   Purpose purpose = Purpose::server;
-  std::chrono::days lasts{397};  ///< the longest that browsers take from an authority
+  std::chrono::days lasts{397};  ///< as long as public ones may: every browser takes it
 };
 
-/// It vouches for others, and for itself. Throws Error where OpenSSL fails.
-Identity makeAuthority(const std::string& name, std::chrono::days lasts,
-                       std::chrono::sys_seconds now);
+/// A computer's name as a certificate has it: small letters; addresses in their usual form. Throws
+/// UsageError for what is none.
+std::string usualForm(const std::string& name);
+
+/// It vouches for others, and for itself; of servers only for these names, for names that end in
+/// .local, and for addresses within a house: who steals its key can pretend to be no web site.
+/// Throws Error where OpenSSL fails, UsageError for a name that is none.
+Identity makeAuthority(const std::string& name, const std::vector<std::string>& also_for,
+                       std::chrono::days lasts, std::chrono::sys_seconds now);
 /// Throws UsageError for a name that no certificate can hold.
 Identity makeIdentity(const IdentityWish& wish, const Identity& authority,
                       std::chrono::sys_seconds now);

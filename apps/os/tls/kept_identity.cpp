@@ -35,7 +35,8 @@ bool isAsWished(const Identity& own, const IdentityWish& wish, const Identity& a
   if (!belongTogether(own) || !isVouchedFor(own.certificate, authority.certificate, now))
     return false;
   const CertificateFacts facts = factsOf(own.certificate, "the certificate");
-  std::vector<std::string> names = wish.reached_by;
+  std::vector<std::string> names;
+  for (const std::string& name : wish.reached_by) names.push_back(usualForm(name));
   std::sort(names.begin(), names.end());
   return facts.name == wish.name && facts.reached_by == names && facts.until > now + kRenewedBefore;
 }
@@ -46,17 +47,20 @@ KeptIdentity keptIdentity(const fs::path& folder, const IdentityWish& wish,
                           std::chrono::sys_seconds now) {
   if (const std::error_code problem = makeFolders(folder))
     failFile("cannot be used", folder, problem, "Look whether this user may write there");
-  Identity authority = held(folder, "authority");
-  if (!belongTogether(authority) || endOf(authority) < now + wish.lasts) {
-    authority = makeAuthority("Authority of " + wish.name, kAuthorityLasts, now);
+  Identity authority = held(folder, "authority"), own = held(folder, "own");
+  bool is_new = !belongTogether(authority) || endOf(authority) < now + wish.lasts;
+  if (!is_new && isAsWished(own, wish, authority, now)) return {own, folder / "authority.pem"};
+  if (!is_new) {
+    own = makeIdentity(wish, authority, now);
+    is_new = !isVouchedFor(own.certificate, authority.certificate, now);
+  }
+  if (is_new) {
+    authority = makeAuthority("Authority of " + wish.name, wish.reached_by, kAuthorityLasts, now);
+    own = makeIdentity(wish, authority, now);
     hold(folder, "authority", authority);
   }
-  Identity own = held(folder, "own");
-  if (!isAsWished(own, wish, authority, now)) {
-    own = makeIdentity(wish, authority, now);
-    hold(folder, "own", own);
-  }
-  return {std::move(own), folder / "authority.pem"};
+  hold(folder, "own", own);
+  return {std::move(own), folder / "authority.pem", is_new};
 }
 
 Identity identityIn(const fs::path& certificate, const fs::path& key,
@@ -67,6 +71,8 @@ Identity identityIn(const fs::path& certificate, const fs::path& key,
     return *text;
   };
   Identity identity{textOf(certificate), textOf(key)};
+  if (privacyOf(key) == Privacy::shared)
+    throw UsageError("may be read by others", key.string(), "chmod 600 " + key.string());
   const CertificateFacts facts = factsOf(identity.certificate, certificate.string());
   if (facts.until <= now)
     throw UsageError("is over", certificate.string(), "Have it renewed by whoever made it");

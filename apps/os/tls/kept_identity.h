@@ -10,18 +10,19 @@ namespace palpa::os {
 struct KeptIdentity {
   Identity identity;
   std::filesystem::path authority;  ///< its certificate, for those who shall believe it
+  bool is_new = false;  ///< the authority is: who believed the one before does not know it
 };
 
 /// From `folder` (authority.pem and .key, own.pem and .key; the keys are for their owner alone),
 /// made there where it is missing, no pair, or of another authority; a new one of the same
-/// authority also when other names are wished for, or 30 days before its end. So whoever believes
-/// the authority has nothing to do for ten years. Throws Error where the folder cannot be written,
-/// UsageError for names that no certificate can hold.
+/// authority also when other names are wished for, or 30 days before its end. The authority lasts
+/// ten years; a name for which it cannot vouch makes a new one. Throws Error where the folder
+/// cannot be written, UsageError for names that no certificate can hold.
 KeptIdentity keptIdentity(const std::filesystem::path& folder, const IdentityWish& wish,
                           std::chrono::sys_seconds now);
 
-/// From two files. Throws UsageError where one cannot be read, they are no pair, or what they say
-/// is over.
+/// From two files. Throws UsageError where one cannot be read, the key can be read by others, they
+/// are no pair, or what they say is over.
 Identity identityIn(const std::filesystem::path& certificate, const std::filesystem::path& key,
                     std::chrono::sys_seconds now);
 

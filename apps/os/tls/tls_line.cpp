@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <climits>
+#include <memory>
+#include <mutex>
 #include <string_view>
 
 #include "anatomy/base/error.h"
@@ -58,17 +60,18 @@ BIO_METHOD* overSockets() {
 class TlsLine final : public Line {
  public:
   TlsLine(int socket, SSL_CTX* context) : Line(socket), ssl_(SSL_new(context)) {
-    BIO* const bio = BIO_new(overSockets());
+    openssl::Bio bio(BIO_new(overSockets()));
     must(ssl_ && bio, "a connection");
-    BIO_set_data(bio, static_cast<Line*>(this));
-    BIO_set_init(bio, 1);
-    SSL_set_bio(ssl_.get(), bio, bio);  // takes it
+    BIO_set_data(bio.get(), static_cast<Line*>(this));
+    BIO_set_init(bio.get(), 1);
+    SSL_set_bio(ssl_.get(), bio.get(), bio.get());
+    static_cast<void>(bio.release());  // the connection's now
     SSL_set_accept_state(ssl_.get());
   }
   ~TlsLine() override { sayGoodbye(); }
 
   std::optional<std::size_t> sendSome(const void* bytes, std::size_t size) override {
-    if (size == 0 || !SSL_is_init_finished(ssl_.get())) return 0;
+    if (size == 0 || !understood()) return 0;
     ERR_clear_error();
     return countOf(SSL_write(ssl_.get(), bytes, countFor(size)));
   }
@@ -77,12 +80,20 @@ class TlsLine final : public Line {
     return countOf(SSL_read(ssl_.get(), bytes, countFor(size)));
   }
   bool holdsMore() const override { return SSL_pending(ssl_.get()) > 0; }
+  bool greets() const override {
+    return BIO_number_read(SSL_get_rbio(ssl_.get())) > 0 && !understood() && !broken_;
+  }
   void endWriting() override {
     sayGoodbye();
     Line::endWriting();
   }
 
  private:
+  /// Once is for ever: new keys are agreed on while both go on talking.
+  bool understood() const {
+    understood_ = understood_ || SSL_is_init_finished(ssl_.get()) == 1;
+    return understood_;
+  }
   std::optional<std::size_t> countOf(int result) {
     if (result > 0) return static_cast<std::size_t>(result);
     const int why = SSL_get_error(ssl_.get(), result);
@@ -92,55 +103,74 @@ class TlsLine final : public Line {
     ERR_clear_error();
     return std::nullopt;
   }
-  /// What is left unread would take the words with it.
+  /// What is left unread would take the words with it; who says more than a request is not waited
+  /// for.
   void sayThatItIsEncrypted() {
     os::sendSome(socket(), kPlain.data(), kPlain.size());
     Line::endWriting();
-    char rest[4096];
-    while (os::receiveSome(socket(), rest, sizeof rest).value_or(0) > 0) continue;
+    char rest[16384];
+    os::receiveSome(socket(), rest, sizeof rest);
   }
   /// So that the other side can tell an end from a cut. Once, and not on a line that broke.
   void sayGoodbye() {
-    if (!broken_ && SSL_is_init_finished(ssl_.get()) &&
-        (SSL_get_shutdown(ssl_.get()) & SSL_SENT_SHUTDOWN) == 0)
+    if (!broken_ && understood() && (SSL_get_shutdown(ssl_.get()) & SSL_SENT_SHUTDOWN) == 0)
       SSL_shutdown(ssl_.get());
     ERR_clear_error();
   }
 
   const Connection ssl_;
   bool broken_ = false;
+  mutable bool understood_ = false;
 };
 
-}  // namespace
+using Context = std::shared_ptr<SSL_CTX>;
 
-struct TlsServer::Context {
-  std::unique_ptr<SSL_CTX, openssl::Freed<SSL_CTX_free>> ssl;
-};
-
-TlsServer::TlsServer(const Identity& identity) : context_(std::make_unique<Context>()) {
-  if (!belongTogether(identity))
-    throw UsageError("do not belong together, or are none", "certificate and key",
-                     "Give the key that the certificate was made for, without a password, as PEM");
-  context_->ssl.reset(SSL_CTX_new(TLS_server_method()));
-  SSL_CTX* const ssl = context_->ssl.get();
-  must(ssl && SSL_CTX_set_min_proto_version(ssl, TLS1_2_VERSION) == 1, "encryption");
+/// One piece of work a call, of curves that cost little: whoever greets decides neither how long a
+/// greeting takes nor how often keys are made anew within one call.
+Context contextFor(const Identity& identity) {
+  const Context context(SSL_CTX_new(TLS_server_method()), openssl::Freed<SSL_CTX_free>{});
+  SSL_CTX* const ssl = context.get();
+  must(ssl && SSL_CTX_set_min_proto_version(ssl, TLS1_2_VERSION) == 1 &&
+           SSL_CTX_set1_groups_list(ssl, "X25519:P-256") == 1,
+       "encryption");
   SSL_CTX_set_options(ssl, SSL_OP_NO_RENEGOTIATION | SSL_OP_CIPHER_SERVER_PREFERENCE);
   SSL_CTX_set_mode(ssl, SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER |
                             SSL_MODE_RELEASE_BUFFERS);
+  SSL_CTX_clear_mode(ssl, SSL_MODE_AUTO_RETRY);
   SSL_CTX_set_session_cache_mode(ssl, SSL_SESS_CACHE_OFF);
   const openssl::Bio chain = openssl::reader(identity.certificate);
   const openssl::Certificate own = openssl::nextCertificate(chain.get());
-  must(SSL_CTX_use_certificate(ssl, own.get()) == 1 &&
-           SSL_CTX_use_PrivateKey(ssl, openssl::keyIn(identity.key).get()) == 1,
-       "the certificate");
+  if (!own || !belongTogether(identity) || SSL_CTX_use_certificate(ssl, own.get()) != 1 ||
+      SSL_CTX_use_PrivateKey(ssl, openssl::keyIn(identity.key).get()) != 1)
+    throw UsageError(
+        "do not belong together, are none, or are too weak (" + openssl::trouble() + ")",
+        "certificate and key",
+        "Give the key that the certificate was made for, without a password, as PEM");
   while (const openssl::Certificate above = openssl::nextCertificate(chain.get()))
     must(SSL_CTX_add1_chain_cert(ssl, above.get()) == 1, "the certificate's chain");
+  return context;
 }
+
+}  // namespace
+
+struct TlsServer::Now {
+  std::mutex mutex;
+  Context context;
+};
+
+TlsServer::TlsServer(const Identity& identity) : now_(std::make_unique<Now>()) { use(identity); }
 
 TlsServer::~TlsServer() = default;
 
+void TlsServer::use(const Identity& identity) {
+  Context context = contextFor(identity);
+  const std::lock_guard lock(now_->mutex);
+  now_->context = std::move(context);
+}
+
 std::unique_ptr<Line> TlsServer::lineOver(int socket) const {
-  return std::make_unique<TlsLine>(socket, context_->ssl.get());
+  const std::lock_guard lock(now_->mutex);
+  return std::make_unique<TlsLine>(socket, now_->context.get());
 }
 
 }  // namespace palpa::os

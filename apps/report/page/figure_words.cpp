@@ -45,7 +45,7 @@ std::string figureOf(const std::string& metric, double mean) {
   const auto [factor, unit] = scaleOf(metric);
   if (unit == "%" && !isShare(metric) && std::isfinite(mean))
     return assess::percentWords(mean / 100);
-  return (isShare(metric) ? fixed(factor * mean, 0) : amount(factor * mean)) +
+  return (isShare(metric) ? fixed(std::floor(factor * mean + 1e-9), 0) : amount(factor * mean)) +
          (unit.empty() ? "" : " " + unit);
 }
 

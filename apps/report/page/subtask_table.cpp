@@ -88,12 +88,13 @@ void writeSubtaskTable(Html& html, const std::vector<assess::SubtaskDose>& doses
 }
 
 void writeSubtaskNote(Html& html) {
-  html.element("p", {{"class", "muted small"}},
-               "Lasted: while the hand did that part of the task, by its place, its speed and its "
-               "contact; parts may overlap. Times: left for a moment counts as not left. Cues "
-               "felt: while a cue was pushing; no such column "
-               "where none was. Added in all: force times time, 1 N s is one "
-               "newton for one second. Added on average: while a cue was felt.");
+  html.element(
+      "p", {{"class", "muted small"}},
+      "Lasted: while the hand did that part of the task, by its place, its speed and its "
+      "contact; parts may overlap. Times: what was left for less than a quarter of a second "
+      "counts once. Cues felt: while a cue was pushing; no such column "
+      "where none was. Added in all: force times time, 1 N s is one "
+      "newton for one second. Added on average: while a cue was felt.");
 }
 
 void writeSubtaskSection(Html& html, const SubtaskSection& parts) {

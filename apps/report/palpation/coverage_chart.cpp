@@ -3,6 +3,7 @@
 
 #include "anatomy/base/counted.h"
 #include "apps/assess/palpation/palpation_score.h"
+#include "apps/assess/palpation/palpation_words.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/palpation/palpation_charts.h"
 #include "apps/report/plot/chart_frame.h"
@@ -244,11 +245,12 @@ void drawMap(Html& html, const PalpationPage& page, const assess::CoverageMap& m
   const MapFrame at = mapFrame(page.rules.area, frame);
   const assess::PalpationScore& score = page.assessment.score;
   const double height = at.top + at.height + kUnder, legend = 8 * 32;
-  const auto svg = openSvg(
-      html, frame, frame.wide ? std::max(height, at.top + legend) : height + legend,
-      "The searched area from above: " + fixed(100 * map.share(1), 0) + " % felt, " +
-          fixed(100 * map.share(3), 0) + " % deeply; " + counted(score.found, "lump") + " found, " +
-          std::to_string(score.missed) + " missed, " + counted(score.false_alarms, "false alarm"));
+  const auto svg =
+      openSvg(html, frame, frame.wide ? std::max(height, at.top + legend) : height + legend,
+              "The searched area from above: " + assess::percentWords(map.share(1)) + " felt, " +
+                  assess::percentWords(map.share(3)) + " deeply; " + counted(score.found, "lump") +
+                  " found, " + std::to_string(score.missed) + " missed, " +
+                  counted(score.false_alarms, "false alarm"));
   drawCells(html, at, map);
   drawContours(html, at, page.rules.area);
   drawEdge(html, at, page.rules.area);

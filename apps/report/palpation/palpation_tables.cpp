@@ -117,15 +117,16 @@ std::vector<Fact> coverageFigures(const assess::PalpationScore& s,
 std::vector<Fact> forceFigures(const assess::PalpationScore& s,
                                const assess::PalpationRules& rules) {
   const std::string touching =
-      " N, of the time with " + trimmed(rules.touch, 2) + " N or more: touching";
-  return {
-      {"Largest force", fixed(s.peak, 2) + " N", ""},
-      {"Mean force", fixed(s.mean, 2) + " N", "while touching"},
-      {"Too light", percentText(s.too_light), "below " + trimmed(rules.levels[0], 2) + touching},
-      {"Too hard", percentText(s.too_hard), "above " + trimmed(rules.too_hard, 2) + touching},
-      {"Force of closer looks", s.closer_force > 0 ? fixed(s.closer_force, 2) + " times" : "–",
-       s.closer_force > 0 ? "the force of the search; 1.15 is usual for those who find"
-                          : "no closer look was taken"}};
+      "of the time of touching (" + trimmed(rules.touch, 2) + " N or more), ";
+  return {{"Largest force", fixed(s.peak, 2) + " N", ""},
+          {"Mean force", fixed(s.mean, 2) + " N", "while touching"},
+          {"Too light", percentText(s.too_light),
+           touching + "below " + trimmed(rules.levels[0], 2) + " N"},
+          {"Too hard", percentText(s.too_hard),
+           touching + "above " + trimmed(rules.too_hard, 2) + " N"},
+          {"Force of closer looks", s.closer_force > 0 ? fixed(s.closer_force, 2) + " times" : "–",
+           s.closer_force > 0 ? "the force of the search; 1.15 is usual for those who find"
+                              : "no closer look was taken"}};
 }
 
 }  // namespace
