@@ -28,7 +28,8 @@ void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
     SubtaskDose& dose = doses_[s];
     if (on) {
       dose.on_s += dt;
-      if (left_s_[s] >= kLeft_s) ++dose.times;
+      dose.times += left_s_[s] > 0;
+      dose.occasions += left_s_[s] >= kLeft_s;
     }
     left_s_[s] = on ? 0 : left_s_[s] + dt;
     if (felt) {

@@ -16,8 +16,8 @@ namespace palpa::assess {
 /// Adds up over recorded ticks how long each part of a task was on, how often it came on, and how
 /// much was added to the force meanwhile. What is added counts for every part that an active
 /// augmentation belongs to. Augmentations of no part in particular have a row of their own, the
-/// last, "any part", which is always on. A hand that trembles across a part's limit does it once: a
-/// part that was left for less than kLeft_s was not left.
+/// last, "any part", which is always on. A hand that trembles across a part's limit does it once,
+/// on one occasion, however often it comes on: it was not left for kLeft_s.
 class DoseCounter {
  public:
   static constexpr double kLeft_s = 0.25;  ///< [chosen] no hand leaves and comes back faster

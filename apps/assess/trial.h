@@ -11,9 +11,10 @@ inline constexpr const char* kAnyPart = "any part";
 struct SubtaskDose {
   std::string subtask;  ///< as the task's file names it
   double on_s = 0;
-  int times = 0;           ///< it came on anew
+  int times = 0;           ///< it came on
   double augmented_s = 0;  ///< a cue of its own was felt; what had begun may outlast the part
   double impulse_Ns = 0;   ///< of the cues
+  int occasions = 0;       ///< it came on and had been left for longer than a tremor
 };
 
 }  // namespace palpa::assess

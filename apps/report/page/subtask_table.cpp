@@ -36,7 +36,7 @@ void writeSubtaskRow(Html& html, const assess::SubtaskDose& dose, const std::str
   }
   html.element("td", fixed(dose.on_s, 1) + " s");
   html.element("td", shareText(dose.on_s, seconds));
-  html.element("td", std::to_string(dose.times));
+  html.element("td", std::to_string(dose.occasions));
   if (!cues) return;
   const bool any = dose.augmented_s > 0;
   html.element("td", any ? fixed(dose.augmented_s, 1) + " s" : "none");
@@ -57,6 +57,7 @@ std::vector<assess::SubtaskDose> dosesSummed(
       if (sum == sums.end()) sum = sums.insert(sums.end(), {dose.subtask, 0, 0, 0, 0});
       sum->on_s += dose.on_s;
       sum->times += dose.times;
+      sum->occasions += dose.occasions;
       sum->augmented_s += dose.augmented_s;
       sum->impulse_Ns += dose.impulse_Ns;
     }
