@@ -128,7 +128,7 @@ using Context = std::shared_ptr<SSL_CTX>;
 /// One piece of work a call, of curves that cost little: whoever greets decides neither how long a
 /// greeting takes nor how often keys are made anew within one call.
 Context contextFor(const Identity& identity) {
-  const Context context(SSL_CTX_new(TLS_server_method()), openssl::Freed<SSL_CTX_free>{});
+  Context context(SSL_CTX_new(TLS_server_method()), openssl::Freed<SSL_CTX_free>{});
   SSL_CTX* const ssl = context.get();
   must(ssl && SSL_CTX_set_min_proto_version(ssl, TLS1_2_VERSION) == 1 &&
            SSL_CTX_set1_groups_list(ssl, "X25519:P-256") == 1,
