@@ -95,7 +95,8 @@ class Encryption {
   }
   /// What is said when it can be used: by a name that the certificate has.
   OpenedConsole opened(int port) const {
-    std::string host = isAnyAddress(settings_.address) ? "127.0.0.1" : settings_.address;
+    std::string host =
+        isAnyAddress(settings_.address) ? "127.0.0.1" : os::usualForm(settings_.address);
     const std::vector<std::string>& known = facts_.reached_by;
     if (!known.empty() && std::find(known.begin(), known.end(), host) == known.end() &&
         known.front().find('*') == std::string::npos)

@@ -283,6 +283,9 @@ TEST(TlsServer, NeedsACertificateAndItsKey) {
   const Identity made = makeIdentity({.name = "a", .reached_by = {"localhost"}}, authority(), kNow);
   EXPECT_THROW(TlsServer({made.certificate, authority().key}), UsageError);
   EXPECT_THROW(TlsServer({"", ""}), UsageError);
+  EXPECT_NO_THROW(TlsServer({made.certificate + authority().certificate, made.key}));
+  const std::string damaged = "-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n";
+  EXPECT_THROW(TlsServer({made.certificate + damaged, made.key}), UsageError);
 }
 
 }  // namespace

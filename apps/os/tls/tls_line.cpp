@@ -125,6 +125,15 @@ class TlsLine final : public Line {
 
 using Context = std::shared_ptr<SSL_CTX>;
 
+/// As many as the text says that it holds.
+int certificatesIn(std::string_view text) {
+  constexpr std::string_view kBegin = "-----BEGIN CERTIFICATE-----";
+  int count = 0;
+  for (std::size_t at = 0; (at = text.find(kBegin, at)) != std::string_view::npos; ++count)
+    at += kBegin.size();
+  return count;
+}
+
 /// One piece of work a call, of curves that cost little: whoever greets decides neither how long a
 /// greeting takes nor how often keys are made anew within one call.
 Context contextFor(const Identity& identity) {
@@ -146,8 +155,12 @@ Context contextFor(const Identity& identity) {
         "do not belong together, are none, or are too weak (" + openssl::trouble() + ")",
         "certificate and key",
         "Give the key that the certificate was made for, without a password, as PEM");
-  while (const openssl::Certificate above = openssl::nextCertificate(chain.get()))
+  int read = 1;
+  for (; const openssl::Certificate above = openssl::nextCertificate(chain.get()); ++read)
     must(SSL_CTX_add1_chain_cert(ssl, above.get()) == 1, "the certificate's chain");
+  if (read < certificatesIn(identity.certificate))
+    throw UsageError("holds one that cannot be read", "the certificate's chain",
+                     "Put the file together again: the certificate, then those above it");
   return context;
 }
 
