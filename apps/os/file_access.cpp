@@ -1,6 +1,7 @@
 #include "apps/os/file_access.h"
 
 #include <fcntl.h>
+#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -88,6 +89,11 @@ std::error_code makeFolders(const fs::path& folder) {
 }
 
 bool mayWrite(const fs::path& path) { return ::access(path.c_str(), W_OK) == 0; }
+
+std::string userName() {
+  const passwd* const user = ::getpwuid(::geteuid());
+  return user ? user->pw_name : std::to_string(::geteuid());
+}
 
 Privacy privacyOf(const fs::path& file) {
   struct stat facts {};

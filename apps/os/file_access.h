@@ -22,6 +22,9 @@ std::error_code makeFolders(const std::filesystem::path& folder);
 
 /// This user may write to the file, or into the folder.
 bool mayWrite(const std::filesystem::path& path);
+/// The name of the user that this process belongs to; its number where it has none.
+std::string userName();
+
 enum class Privacy { missing, shared, own };
 /// `own`: nobody but its owner may read or write it.
 Privacy privacyOf(const std::filesystem::path& file);

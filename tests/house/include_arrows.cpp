@@ -100,19 +100,34 @@ std::string libraryOf(const std::string& header) {
     return "VTK";
   }
   static const std::vector<std::pair<std::string, std::string>> kPrefixes{
-      {"Eigen/", "Eigen"},       {"unsupported/Eigen/", "Eigen"},
-      {"opencv2/", "OpenCV"},    {"nlohmann/", "JSON"},
-      {"cairo/", "Cairo"},       {"webp/", "WebP"},
-      {"tiny_gltf", "tinygltf"}, {"gdcm", "GDCM"},
-      {"libusb", "libusb"},      {"ceres/", "Ceres"},
-      {"apriltag/", "AprilTag"}, {"openxr/", "OpenXR"},
-      {"GL/", "OpenGL"},         {"EGL/", "OpenGL"},
-      {"X11/", "OpenGL"},        {"CLI/", "CLI11"},
-      {"sqlite3", "SQLite"},     {"pqxx/", "PostgreSQL"},
-      {"zlib", "zlib"},          {"httplib", "httplib"},
-      {"igtl", "OpenIGTLink"},   {"boost/", "Boost"},
-      {"glm/", "GLM"},           {"embree3/", "Embree"},
-      {"openssl/", "OpenSSL"},   {"AL/", "OpenAL"}};
+      {"Eigen/", "Eigen"},
+      {"unsupported/Eigen/", "Eigen"},
+      {"opencv2/", "OpenCV"},
+      {"nlohmann/", "JSON"},
+      {"cairo/", "Cairo"},
+      {"webp/", "WebP"},
+      {"tiny_gltf", "tinygltf"},
+      {"gdcm", "GDCM"},
+      {"libusb", "libusb"},
+      {"ceres/", "Ceres"},
+      {"apriltag/", "AprilTag"},
+      {"openxr/", "OpenXR"},
+      {"GL/", "OpenGL"},
+      {"EGL/", "OpenGL"},
+      {"X11/", "OpenGL"},
+      {"CLI/", "CLI11"},
+      {"sqlite3", "SQLite"},
+      {"pqxx/", "PostgreSQL"},
+      {"zlib", "zlib"},
+      {"httplib", "httplib"},
+      {"igtl", "OpenIGTLink"},
+      {"boost/", "Boost"},
+      {"glm/", "GLM"},
+      {"embree3/", "Embree"},
+      {"openssl/", "OpenSSL"},
+      {"AL/", "OpenAL"},
+      {"mosquitto", "Mosquitto"},
+      {"mqtt_protocol", "Mosquitto"}};
   for (const auto& [prefix, library] : kPrefixes)
     if (begins(header, prefix)) return library;
   return "";

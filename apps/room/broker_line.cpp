@@ -1,0 +1,309 @@
+#include "apps/room/broker_line.h"
+
+#include <mosquitto.h>
+#include <mqtt_protocol.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "anatomy/base/error.h"
+#include "apps/os/real_time.h"
+#include "apps/os/socket.h"
+#include "apps/os/tls/tls_client.h"
+#include "apps/runtime/clock.h"
+
+namespace palpa::room {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr int kQos = 1, kKeepAlive = 10;  // s
+constexpr std::size_t kUnderWay = 20;     // said and not taken yet
+constexpr int kRefused = 128;             // MQTT 5: reason codes from here on
+constexpr milliseconds kStep{100}, kFirstRest{1000}, kLongestRest{15000}, kEnding{2000};
+
+/// Once a program, never undone.
+void beginLibrary() {
+  static const int begun = mosquitto_lib_init();
+  if (begun != MOSQ_ERR_SUCCESS)
+    throw Error("cannot be used", "the MQTT library", "Install libmosquitto1 anew");
+  os::surviveBrokenConnections();
+}
+
+/// What OpenSSL says at either end, in words that help.
+std::string whyNoTls(const std::string& log) {
+  const auto has = [&log](const char* words) { return log.find(words) != std::string::npos; };
+  if (has("alert certificate expired") || has("alert unknown ca") || has("alert bad certificate"))
+    return "refused this computer's certificate, which is over or of another room: pair it again";
+  if (has("certificate verify failed"))
+    return "is not the one of this room, or its certificate is over: look whether the address is "
+           "right, and pair anew";
+  return "did not agree on encryption (" + (log.empty() ? "no reason given" : log) + ")";
+}
+
+std::string whyNot(int result, const std::string& log) {
+  switch (result) {
+    case MOSQ_ERR_TLS:
+    case MOSQ_ERR_TLS_HANDSHAKE:
+      return log.find("unexpected eof") == std::string::npos ? whyNoTls(log) : "is gone";
+    case MOSQ_ERR_EAI:
+    case MOSQ_ERR_LOOKUP:
+      return "has a name that no computer here answers to";
+    case MOSQ_ERR_CONN_REFUSED:
+    case MOSQ_ERR_NO_CONN:
+    case MOSQ_ERR_ERRNO:
+      return "cannot be reached: look whether it runs, and whether the network is there";
+    case MOSQ_ERR_CONN_LOST:
+    case MOSQ_ERR_KEEPALIVE:
+      return log.find("alert") == std::string::npos ? "is gone" : whyNoTls(log);
+    default:
+      return std::string("does not work (") + mosquitto_strerror(result) + ")";
+  }
+}
+
+struct Freed {
+  void operator()(mosquitto* client) const { mosquitto_destroy(client); }
+};
+using Client = std::unique_ptr<mosquitto, Freed>;
+
+}  // namespace
+
+struct BrokerLine::Shared {
+  explicit Shared(Wish wanted)
+      : wish(std::move(wanted)),
+        tls({wish.access.authority, wish.access.host, wish.access.identity}) {}
+
+  const Wish wish;
+  const os::TlsClient tls;
+
+  mutable std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<Said> waiting;
+  State state;
+  bool ending = false, ended = false;
+
+  // Of the line's thread alone.
+  std::deque<std::pair<int, Said>> under_way;  ///< with the library's numbers
+  bool open = false;
+  std::string log, refused;
+
+  /// Held while somebody is told something; nobody is, once `deaf`: they may be gone.
+  std::mutex telling;
+  bool deaf = false;
+
+  void run();
+
+ private:
+  Client connecting();
+  int speak(mosquitto* client);
+  void send(mosquitto* client);
+  bool say(mosquitto* client, Said said);
+  void settle(bool stands, const std::string& trouble);
+  bool done();
+  void takeBack();
+
+  static Shared& of(void* self) { return *static_cast<Shared*>(self); }
+  void hello(mosquitto* client, int reason);
+  void hear(const mosquitto_message& message);
+  void taken(int number, int reason);
+};
+
+/// Of what waits the newest retained words of a topic count.
+static void keepInOrder(std::deque<Said>* waiting, Said said) {
+  if (said.retained)
+    std::erase_if(*waiting,
+                  [&](const Said& one) { return one.retained && one.topic == said.topic; });
+  if (waiting->size() == BrokerLine::kMostWaiting) waiting->pop_front();
+  waiting->push_back(std::move(said));
+}
+
+void BrokerLine::Shared::settle(bool stands, const std::string& trouble) {
+  const std::lock_guard lock(mutex);
+  state = {stands, trouble};
+}
+
+/// The broker has taken us, or says why not.
+void BrokerLine::Shared::hello(mosquitto* client, int reason) {
+  if (reason != 0) {
+    refused = std::string("refused this computer: ") + mosquitto_reason_string(reason);
+    return;
+  }
+  open = true;
+  settle(true, "");
+  for (const std::string& topic : wish.topics)
+    mosquitto_subscribe_v5(client, nullptr, topic.c_str(), kQos, 0, nullptr);
+  const std::lock_guard lock(telling);
+  if (deaf || !wish.greets) return;
+  for (Said& said : wish.greets()) say(client, std::move(said));
+}
+
+void BrokerLine::Shared::hear(const mosquitto_message& message) {
+  const std::lock_guard lock(telling);
+  if (deaf || !wish.hears || message.payloadlen < 0) return;
+  wish.hears(
+      {message.topic,
+       {static_cast<const char*>(message.payload), static_cast<std::size_t>(message.payloadlen)},
+       message.retain});
+}
+
+void BrokerLine::Shared::taken(int number, int reason) {
+  const auto found = std::find_if(under_way.begin(), under_way.end(),
+                                  [number](const auto& one) { return one.first == number; });
+  if (found == under_way.end()) return;
+  if (reason >= kRefused)
+    settle(true, "The room's broker refused what was said about " + found->second.topic + ": " +
+                     mosquitto_reason_string(reason) + ". Pair this station again");
+  under_way.erase(found);
+}
+
+Client BrokerLine::Shared::connecting() {
+  Client client(mosquitto_new(nullptr, true, this));
+  if (!client) throw Error("has no memory left", "the line to the room's broker", "Close programs");
+  mosquitto* const one = client.get();
+  mosquitto_int_option(one, MOSQ_OPT_PROTOCOL_VERSION, MQTT_PROTOCOL_V5);
+  mosquitto_int_option(one, MOSQ_OPT_TCP_NODELAY, 1);
+  mosquitto_int_option(one, MOSQ_OPT_SSL_CTX_WITH_DEFAULTS, 0);
+  mosquitto_void_option(one, MOSQ_OPT_SSL_CTX, tls.context());
+  const Said& will = wish.last_will;
+  if (!will.topic.empty())
+    mosquitto_will_set_v5(one, will.topic.c_str(), static_cast<int>(will.words.size()),
+                          will.words.data(), kQos, will.retained, nullptr);
+  mosquitto_connect_v5_callback_set(
+      one, [](mosquitto* c, void* self, int reason, int, const mosquitto_property*) {
+        of(self).hello(c, reason);
+      });
+  mosquitto_publish_v5_callback_set(
+      one, [](mosquitto*, void* self, int number, int reason, const mosquitto_property*) {
+        of(self).taken(number, reason);
+      });
+  mosquitto_message_v5_callback_set(
+      one, [](mosquitto*, void* self, const mosquitto_message* message, const mosquitto_property*) {
+        of(self).hear(*message);
+      });
+  mosquitto_log_callback_set(one, [](mosquitto*, void* self, int level, const char* words) {
+    if (level == MOSQ_LOG_ERR) of(self).log = words;
+  });
+  return client;
+}
+
+bool BrokerLine::Shared::say(mosquitto* client, Said said) {
+  int number = 0;
+  const int result =
+      mosquitto_publish_v5(client, &number, said.topic.c_str(), static_cast<int>(said.words.size()),
+                           said.words.data(), kQos, said.retained, nullptr);
+  if (result == MOSQ_ERR_SUCCESS) under_way.emplace_back(number, std::move(said));
+  return result == MOSQ_ERR_SUCCESS;
+}
+
+void BrokerLine::Shared::send(mosquitto* client) {
+  while (open && under_way.size() < kUnderWay) {
+    Said next;
+    {
+      const std::lock_guard lock(mutex);
+      if (waiting.empty()) return;
+      next = waiting.front();
+    }
+    if (!say(client, next)) return;
+    const std::lock_guard lock(mutex);
+    // Unless newer words have taken its place.
+    if (!waiting.empty() && waiting.front().topic == next.topic &&
+        waiting.front().words == next.words)
+      waiting.pop_front();
+  }
+}
+
+/// Nothing is left to be said, and we are asked to go.
+bool BrokerLine::Shared::done() {
+  const std::lock_guard lock(mutex);
+  return ending && ((waiting.empty() && under_way.empty()) || !open);
+}
+
+/// Until the line is lost, or we go. The library's word why.
+int BrokerLine::Shared::speak(mosquitto* client) {
+  int result = MOSQ_ERR_SUCCESS;
+  while (result == MOSQ_ERR_SUCCESS) {
+    send(client);
+    if (done()) {
+      mosquitto_disconnect_v5(client, 0, nullptr);
+      mosquitto_loop(client, static_cast<int>(kStep.count()), 1);
+      return MOSQ_ERR_SUCCESS;
+    }
+    result = mosquitto_loop(client, static_cast<int>(kStep.count()), 1);
+  }
+  return result;
+}
+
+/// What the broker has not taken is said again, before the rest.
+void BrokerLine::Shared::takeBack() {
+  const std::lock_guard lock(mutex);
+  std::deque<Said> again;
+  for (auto& [number, said] : under_way) keepInOrder(&again, std::move(said));
+  for (Said& said : waiting) keepInOrder(&again, std::move(said));
+  waiting = std::move(again);
+  under_way.clear();
+}
+
+void BrokerLine::Shared::run() {
+  os::giveWay();
+  milliseconds rest = kFirstRest;
+  for (;;) {
+    open = false;
+    log.clear();
+    refused.clear();
+    const Client client = connecting();
+    int result = mosquitto_connect_bind_v5(client.get(), wish.access.host.c_str(), wish.access.port,
+                                           kKeepAlive, nullptr, nullptr);
+    if (result == MOSQ_ERR_SUCCESS) result = speak(client.get());
+    rest = open ? kFirstRest : std::min(2 * rest, kLongestRest);
+    takeBack();
+    std::unique_lock lock(mutex);
+    if (ending) break;
+    state = {false, "The room's broker (" + wish.access.host + ":" +
+                        std::to_string(wish.access.port) + ") " +
+                        (refused.empty() ? whyNot(result, log) : refused)};
+    if (changed.wait_for(lock, rest, [this] { return ending; })) break;
+  }
+  const std::lock_guard lock(mutex);
+  state = {};
+  ended = true;
+  changed.notify_all();
+}
+
+BrokerLine::BrokerLine(Wish wish) : shared_(std::make_shared<Shared>(std::move(wish))) {
+  beginLibrary();
+  os::startThread([shared = shared_] {
+    try {
+      shared->run();
+    } catch (const std::exception& e) {
+      const std::lock_guard lock(shared->mutex);
+      shared->state = {false, e.what()};
+      shared->ended = true;
+      shared->changed.notify_all();
+    }
+  }).detach();
+}
+
+BrokerLine::~BrokerLine() {
+  {
+    const std::lock_guard lock(shared_->telling);
+    shared_->deaf = true;
+  }
+  std::unique_lock lock(shared_->mutex);
+  shared_->ending = true;
+  shared_->changed.notify_all();
+  shared_->changed.wait_for(lock, kEnding, [this] { return shared_->ended; });
+}
+
+void BrokerLine::say(Said said) {
+  const std::lock_guard lock(shared_->mutex);
+  keepInOrder(&shared_->waiting, std::move(said));
+}
+
+BrokerLine::State BrokerLine::state() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->state;
+}
+
+}  // namespace palpa::room

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "apps/room/broker_line.h"
+
+namespace palpa::room {
+
+/// What a station is given, once, in a file: who has it speaks as this station.
+struct Pairing {
+  std::string station;
+  std::string made_utc;  ///< events of sessions begun before stay with the station
+  BrokerAccess broker;
+};
+/// For its owner alone. Throws Error.
+void writePairing(const std::filesystem::path& file, const Pairing& pairing);
+/// Throws UsageError where it can be read by others, is damaged, of a newer program, or over at
+/// `now`.
+Pairing readPairing(const std::filesystem::path& file, std::chrono::sys_seconds now);
+
+/// The folder of a room: an authority of its own, the certificates that it has given, and what its
+/// broker (mosquitto) is started with: `mosquitto -c FOLDER/mosquitto.conf`. The broker lets in who
+/// has a certificate of the room; a station may speak in its own topics only, with its newest
+/// certificate only.
+class Room {
+ public:
+  /// `host`, `port`: where stations reach the broker; made anew where they are others. Throws Error
+  /// where the folder cannot be written, UsageError for a host that no certificate can hold.
+  static Room made(const std::filesystem::path& folder, const std::string& host, int port,
+                   std::chrono::sys_seconds now);
+  /// One that is there. Throws UsageError where none is, or where it is damaged.
+  static Room in(const std::filesystem::path& folder);
+
+  /// Gives a station a certificate; one that it had before is of no use from then on. The broker
+  /// must read its files again (SIGHUP). Throws UsageError for a name that is none.
+  Pairing pair(const std::string& station, std::chrono::sys_seconds now);
+  /// False: it is not paired.
+  bool forget(const std::string& station);
+  /// For who watches the room; made anew a month before it is over.
+  BrokerAccess watcher(std::chrono::sys_seconds now) const;
+
+  const std::string& host() const { return host_; }
+  int port() const { return port_; }
+  /// The paired ones, and the name that each has at the broker.
+  const std::map<std::string, std::string>& stations() const { return stations_; }
+  std::filesystem::path brokerSettings() const { return folder_ / "mosquitto.conf"; }
+
+ private:
+  explicit Room(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  void write() const;
+  BrokerAccess access(const os::Identity& identity) const;
+
+  std::filesystem::path folder_;
+  std::string host_;
+  int port_ = 0;
+  std::map<std::string, std::string> stations_;
+};
+
+}  // namespace palpa::room

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "apps/room/messages.h"
+#include "apps/room/pairing.h"
+#include "apps/runtime/clock.h"
+
+namespace palpa::room {
+
+/// A station's end of the room: says how it stands, tells what its sessions record, does what it is
+/// asked. An event counts as told when the watcher says that it has it, not when the broker took
+/// it: a broker that dies loses nothing. Until then it is told again. Any thread.
+class StationLine {
+ public:
+  /// `obeys`: does what is asked; on the line's thread.
+  StationLine(const Pairing& pairing, const StationFacts& facts,
+              std::function<Answer(const Ask&)> obeys);
+  ~StationLine();
+  StationLine(const StationLine&) = delete;
+  StationLine& operator=(const StationLine&) = delete;
+
+  /// Said when it is another than before (but for time that passes), and every 5 s. `state.utc` is
+  /// the caller's.
+  void show(StationState state);
+  /// Whether the watcher wants a session's events; nothing: he has not said what he has.
+  std::optional<bool> wants(const std::string& session) const;
+  /// Of a record, in its order. What was told or heard before is passed over. False: too much is
+  /// under way, try again later.
+  bool tell(const Happening& happening);
+  /// Up to which number the watcher has it; -1: nothing.
+  std::int64_t heardOf(const std::string& session, const std::string& record) const;
+  /// Now and then: what was not heard in time is told again.
+  void look();
+  BrokerLine::State state() const { return line_.state(); }
+
+ private:
+  using Time = runtime::ServingClock::time_point;
+  std::vector<Said> greeting();
+  void hears(const Said& said);
+  void hearsOf(const Heard& heard);
+  void obey(const Ask& ask);
+  void tellAgain();
+  Said said(Topic topic, const nlohmann::json& message, bool retained) const;
+
+  const std::string station_;
+  const StationFacts facts_;
+  const std::function<Answer(const Ask&)> obeys_;
+  mutable std::mutex mutex_;
+  StationState shown_;
+  Time shown_at_{};
+  std::optional<Heard> heard_;
+  std::deque<Happening> under_way_;           ///< told and not heard
+  std::map<std::string, std::int64_t> told_;  ///< of each record: the newest
+  Time moved_{};                              ///< something was heard, or told again
+  std::chrono::seconds patience_;
+  std::deque<std::string> asked_;  ///< newest ids: a broker may say a thing twice
+  BrokerLine line_;                ///< last: its thread uses the rest
+};
+
+}  // namespace palpa::room

@@ -1,0 +1,201 @@
+#include <set>
+#include <thread>
+
+#include "anatomy/base/error.h"
+#include "apps/room/station_line.h"
+#include "apps/room/watch.h"
+#include "broker.h"
+#include "tests/support/scratch_folder.h"
+
+namespace palpa::room {
+namespace {
+
+using std::chrono::days;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// A room with its broker on this computer.
+class RoomOfStations : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Broker::isInstalled()) GTEST_SKIP() << "mosquitto is not installed";
+    broker_.emplace(room_.brokerSettings().string());
+  }
+  std::unique_ptr<RoomWatch> watch() {
+    return std::make_unique<RoomWatch>(room_.watcher(today()), scratch_ / "watch");
+  }
+  Pairing pairing(const std::string& station, std::chrono::sys_seconds when = today()) {
+    Pairing made = room_.pair(station, when);
+    broker_->readAgain();
+    return made;
+  }
+  std::unique_ptr<StationLine> station(const Pairing& pairing) {
+    return std::make_unique<StationLine>(
+        pairing, StationFacts{"http://127.0.0.1:1/", "", "key", "1"}, [this](const Ask& ask) {
+          ++asked_;
+          return Answer{"", ask.what == Ask::What::pause, "not now"};
+        });
+  }
+
+  const palpa::test::ScratchFolder scratch_{"room"};
+  Room room_ = Room::made(scratch_ / "room", "localhost", freePort(), today());
+  std::optional<Broker> broker_;
+  std::atomic<int> asked_{0};
+};
+
+Happening event(const std::string& session, std::int64_t number) {
+  Happening h;
+  h.session = session;
+  h.record = "rec-" + session;
+  h.number = number;
+  h.after = number - 1;
+  h.event = "phase";
+  h.text = "Event " + std::to_string(number);
+  h.tone = "neutral";
+  return h;
+}
+
+/// All of a session's first `count`, as a station tells them: again and again, until they are
+/// taken.
+void tellAll(StationLine& line, const std::string& session, int count) {
+  for (int i = 0; i < count; ++i)
+    ASSERT_TRUE(soon([&] {
+      line.look();
+      return line.tell(event(session, i));
+    }));
+}
+
+std::vector<std::int64_t> numbersOf(const RoomWatch& watch, const std::string& station) {
+  std::vector<std::int64_t> all;
+  for (const Kept& kept : watch.happenings(station)) all.push_back(kept.happening.number);
+  return all;
+}
+
+std::vector<std::int64_t> upTo(std::int64_t count) {
+  std::vector<std::int64_t> all;
+  for (std::int64_t i = 0; i < count; ++i) all.push_back(i);
+  return all;
+}
+
+bool says(const StationLine& line, const std::string& words) {
+  return line.state().trouble.find(words) != std::string::npos;
+}
+
+TEST_F(RoomOfStations, SeesHowEachStandsAndThatOneIsGone) {
+  const auto watch = this->watch();
+  auto one = station(pairing("one")), two = station(pairing("two"));
+  StationState running;
+  running.present = true;
+  running.state = "running";
+  running.task = "A needle";
+  const auto stateOf = [&](const std::string& name) { return watch->stations()[name].state; };
+  EXPECT_TRUE(soon([&] {
+    one->show(running);
+    two->show(running);
+    return stateOf("one").task == "A needle" && stateOf("two").present;
+  }));
+  EXPECT_EQ(watch->stations()["one"].about->url, "http://127.0.0.1:1/");
+  two.reset();
+  EXPECT_TRUE(soon([&] { return !stateOf("two").present; }));
+  EXPECT_EQ(stateOf("two").state, "gone");
+  EXPECT_TRUE(stateOf("one").present);
+}
+
+TEST_F(RoomOfStations, HearsEveryEventOnceThoughAllAreKilledInTurn) {
+  auto watch = this->watch();
+  const Pairing pairing = this->pairing("one");
+  auto line = station(pairing);
+  tellAll(*line, "20260101-a", 50);
+  EXPECT_TRUE(soon([&] { return numbersOf(*watch, "one") == upTo(50); }));
+
+  broker_->kill(SIGKILL);
+  line->tell(event("20260101-a", 50));
+  EXPECT_TRUE(soon([&] { return says(*line, "is gone") || says(*line, "cannot be reached"); }));
+  EXPECT_FALSE(line->state().stands);
+  broker_->start();
+  tellAll(*line, "20260101-a", 90);
+  EXPECT_TRUE(soon([&] {
+    line->look();
+    return numbersOf(*watch, "one") == upTo(90);
+  }));
+
+  line.reset();  // a station that was killed tells all that it has, from the first
+  line = station(pairing);
+  tellAll(*line, "20260101-a", 120);
+  EXPECT_TRUE(soon([&] { return numbersOf(*watch, "one") == upTo(120); }));
+
+  watch.reset();
+  tellAll(*line, "20260101-a", 130);
+  watch = this->watch();
+  tellAll(*line, "20260101-a", 150);
+  EXPECT_TRUE(soon([&] {
+    line->look();
+    return numbersOf(*watch, "one") == upTo(150);
+  }));
+  EXPECT_TRUE(soon([&] { return line->heardOf("20260101-a", "rec-20260101-a") == 149; }));
+}
+
+TEST_F(RoomOfStations, AsksAStationAndHearsTheAnswer) {
+  const auto watch = this->watch();
+  const auto line = station(pairing("one"));
+  ASSERT_TRUE(soon([&] { return watch->stations()["one"].about.has_value(); }));
+  const auto paused = watch->ask("one", {"a1", Ask::What::pause, {}}, seconds(10));
+  ASSERT_TRUE(paused);
+  EXPECT_TRUE(paused->done);
+  const auto stopped = watch->ask("one", {"a2", Ask::What::stop, {}}, seconds(10));
+  ASSERT_TRUE(stopped);
+  EXPECT_FALSE(stopped->done);
+  EXPECT_EQ(stopped->words, "not now");
+  EXPECT_EQ(asked_, 2);
+  EXPECT_FALSE(watch->ask("nobody", {"a3", Ask::What::pause, {}}, milliseconds(300)));
+}
+
+TEST_F(RoomOfStations, WhoIsOfAnotherRoomOrOverIsRefusedAndTold) {
+  // A certificate that was good for five years, six years ago.
+  const auto over = station(pairing("over", today() - days(2190)));
+  Room other = Room::made(scratch_ / "other", "localhost", room_.port(), today());
+  Pairing foreign = other.pair("one", today());
+  const auto stranger = station(foreign);
+  EXPECT_TRUE(soon([&] { return says(*stranger, "is not the one of this room"); }));
+  foreign.broker.authority = pairing("one").broker.authority;
+  const auto forged = station(foreign);
+  for (const auto* line : {&over, &forged}) {
+    EXPECT_TRUE(soon([&] { return says(**line, "refused this computer's certificate"); }))
+        << (*line)->state().trouble;
+    EXPECT_FALSE((*line)->state().stands);
+  }
+}
+
+TEST_F(RoomOfStations, NobodySpeaksForAnotherStation) {
+  const auto watch = this->watch();
+  const Pairing old = pairing("one"), two = pairing("two");
+  Pairing pretends = two;
+  pretends.station = "one";
+  const auto liar = station(pretends);
+  EXPECT_TRUE(soon([&] { return says(*liar, "palpa/one/"); }));
+  EXPECT_EQ(watch->stations().count("one"), 0u);
+  const auto honest = station(two);
+  EXPECT_TRUE(soon([&] { return watch->stations()["two"].about.has_value(); }));
+  EXPECT_EQ(honest->state().trouble, "");
+
+  pairing("one");  // again: the certificate of before is of no use
+  const auto stolen = station(old);
+  EXPECT_TRUE(soon([&] { return says(*stolen, "palpa/one/"); }));
+  EXPECT_EQ(watch->stations().count("one"), 0u);
+}
+
+TEST_F(RoomOfStations, NothingIsKeptTwiceOrOutOfOrder) {
+  const auto watch = this->watch();
+  BrokerLine line(
+      {.access = pairing("one").broker, .last_will = {}, .topics = {}, .greets = {}, .hears = {}});
+  const auto say = [&](const Happening& h) {
+    line.say({topicOf("one", Topic::events), wire(toJson(h)), false});
+  };
+  for (const int number : {0, 1, 1, 3, 0, 2, 2, 3, 4}) say(event("20260101-a", number));
+  line.say({topicOf("one", Topic::events), "{\"session\": 7}", false});
+  say(event("20260101-a", 5));
+  EXPECT_TRUE(soon([&] { return numbersOf(*watch, "one") == upTo(6); }));
+}
+
+}  // namespace
+}  // namespace palpa::room
