@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/utc.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/values.h"
 #include "apps/console/console.h"
@@ -13,6 +14,8 @@
 #include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
 #include "apps/os/local_socket.h"
+#include "apps/room/pairing.h"
+#include "apps/runtime/clock.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
@@ -24,7 +27,7 @@ constexpr std::size_t kShortestToken = 16;
 
 struct ConsoleOptions {
   std::string listen = "127.0.0.1", token_file, records, home, station, room_camera, certificate,
-              key;
+              key, room;
   std::vector<std::string> names;
   int port = 0;
   bool open = true, tls = false;
@@ -71,12 +74,60 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.tls = o.tls;
   s.certificate = o.certificate;
   s.key = o.key;
+  if (!o.room.empty() && !fs::exists(o.room))
+    throw UsageError("is not there", "--room " + o.room,
+                     "Give a room's folder to watch it, or a station's pairing file to join it: "
+                     "palpa console pair --help");
+  s.room = o.room;
   s.tone = evidence::toneOfEvent;
   if (!o.station.empty()) {
     station::readStation(o.station);  // refused here, where somebody reads it
     s.station = fs::absolute(o.station).string();
   }
   return s;
+}
+
+struct PairOptions {
+  std::string station, broker, room, out;
+  int port = 8883;
+  bool forget = false;
+};
+
+fs::path folderOf(const PairOptions& o) {
+  return o.room.empty() ? usualConsoleHome().parent_path() / "room" : fs::path(o.room);
+}
+
+void forget(const PairOptions& o) {
+  room::Room room = room::Room::in(folderOf(o));
+  if (!room.forget(o.station))
+    throw UsageError("is not paired", o.station,
+                     "Paired stations stand in " + (folderOf(o) / "room.json").string());
+  std::printf(
+      "%s may no longer speak in the room, once its broker has read its files again: "
+      "pkill -HUP mosquitto\n",
+      o.station.c_str());
+}
+
+/// A room is made by its first station, at the address that it names.
+room::Room roomFor(const PairOptions& o, std::chrono::sys_seconds now) {
+  if (!o.broker.empty()) return room::Room::made(folderOf(o), o.broker, o.port, now);
+  return room::Room::in(folderOf(o));
+}
+
+void pair(const PairOptions& o) {
+  const auto now = utcSecondsOf(runtime::utcNow());
+  const fs::path file = o.out.empty() ? fs::path(o.station + ".palpa-pairing") : fs::path(o.out);
+  if (fs::exists(file))
+    throw UsageError("is there already", file.string(), "Remove it, or choose another with --out");
+  room::Room room = roomFor(o, now);
+  writePairing(file, room.pair(o.station, now));
+  std::printf(
+      "%s is paired: bring %s to that station, and start its console there with --room %s\n"
+      "Whoever has that file can speak as this station: delete the copies on the way\n"
+      "The room's broker: mosquitto -c %s (one that runs: pkill -HUP mosquitto)\n"
+      "Watch the room: palpa console --room %s\n",
+      o.station.c_str(), file.c_str(), file.filename().c_str(), room.brokerSettings().c_str(),
+      room.brokerSettings().parent_path().c_str());
 }
 
 void sayHowItIsKnown(const console::OpenedConsole& opened) {
@@ -110,6 +161,37 @@ void runConsole() {
   o.records = usualRecordsMade();
   serve(o);
 }
+
+namespace {
+
+void addPair(CLI::App& console) {
+  const auto o = std::make_shared<PairOptions>();
+  CLI::App* command = console.add_subcommand(
+      "pair", "Give a station its place in a room of stations, which one console watches");
+  command->add_option("station", o->station, "The station's name: letters, digits, - and _")
+      ->required();
+  command
+      ->add_option("--broker", o->broker,
+                   "Name or address by which stations reach this computer, where the room's broker "
+                   "runs; needed for the first station")
+      ->type_name("HOST");
+  command->add_option("--port", o->port, "Port of the broker (default 8883)")
+      ->check(inRange(1, 65535));
+  command
+      ->add_option("--room", o->room,
+                   "The room's folder: its certificates and the broker's settings (default "
+                   "~/.local/share/palpa/room)")
+      ->type_name("DIR");
+  command->add_option("--out", o->out, "The station's pairing file (default STATION.palpa-pairing)")
+      ->type_name("FILE");
+  command->add_flag("--forget", o->forget, "Take a station's place in the room away");
+  command->footer(
+      "Examples:\n  palpa console pair bench1 --broker desk.local\n  palpa console pair bench2\n"
+      "  palpa console pair bench2 --forget");
+  command->callback([o] { o->forget ? forget(*o) : pair(*o); });
+}
+
+}  // namespace
 
 void addConsole(CLI::App& program) {
   const auto o = std::make_shared<ConsoleOptions>();
@@ -148,6 +230,11 @@ void addConsole(CLI::App& program) {
                    "Another name by which browsers reach this computer, e.g. station3.local")
       ->type_name("HOST");
   command
+      ->add_option("--room", o->room,
+                   "A room's folder: this console watches its stations; or a pairing file: this "
+                   "station joins that room (palpa console pair --help)")
+      ->type_name("PATH");
+  command
       ->add_option("--home", o->home,
                    "Where the console keeps its sessions (default ~/.local/share/palpa/console)")
       ->type_name("DIR");
@@ -169,7 +256,10 @@ void addConsole(CLI::App& program) {
       "Examples:\n  palpa console\n  palpa console --port 8080 --no-open\n  palpa console --listen "
       "192.168.1.20 --port 8080 --token-file ~/palpa-token\n      for a tablet: its pages are "
       "encrypted");
-  command->callback([o] { serve(*o); });
+  addPair(*command);
+  command->callback([o, command] {
+    if (command->get_subcommands().empty()) serve(*o);
+  });
 }
 
 }  // namespace palpa::cli

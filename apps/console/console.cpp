@@ -16,6 +16,7 @@
 #include "apps/os/socket.h"
 #include "apps/os/tls/kept_identity.h"
 #include "apps/os/tls/tls_line.h"
+#include "apps/room/pairing.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -182,6 +183,31 @@ void addPages(WebServer& server, const Console& c) {
              });
 }
 
+/// By a name that others reach it by: of a station whose address is any, one must be given.
+std::string urlForRoom(const ConsoleSettings& s, const OpenedConsole& opened) {
+  if (!isAnyAddress(s.address)) return opened.url;
+  if (s.names.empty())
+    throw UsageError("does not say how the room reaches this station", "--listen " + s.address,
+                     "Give its own address, or its name with --name");
+  const std::string port = opened.url.substr(opened.url.rfind(':'));
+  return "https://" + bracketed(os::usualForm(s.names.front())) + port;
+}
+
+/// Watches a room, or joins one.
+void enterRoom(const ConsoleSettings& s, const OpenedConsole& opened, Console* console) {
+  if (s.room.empty()) return;
+  const auto now = utcSecondsOf(runtime::utcNow());
+  if (fs::is_directory(s.room)) {
+    console->watch = std::make_unique<room::RoomWatch>(room::Room::in(s.room).watcher(now),
+                                                       s.place.home / "room");
+    return;
+  }
+  const std::string authority =
+      opened.authority.empty() ? "" : readWhole(opened.authority).value_or("");
+  console->joined = std::make_unique<RoomStation>(*console, room::readPairing(s.room, now),
+                                                  urlForRoom(s, opened), authority);
+}
+
 void prepare(const ConsolePlace& place) {
   if (const std::error_code problem = os::makeFolders(place.home))
     failFile("cannot be used", place.home, problem, "Or choose another folder with --home");
@@ -220,11 +246,13 @@ void serveConsole(const ConsoleSettings& s,
   addLiveRoutes(server, console);
   addRatingRoutes(server, console);
   addReplayRoutes(server, console);
+  addFilmRoutes(server, console);
   addRoomRoutes(server, console);
   addOwnRoutes(server, console);
   checkHealth(console);
   const Serving serving(server);
   const OpenedConsole opened = encryption.opened(port);
+  enterRoom(s, opened, &console);
   only.announce(opened.url);
   ready(opened);
   while (!interrupt.noted()) {

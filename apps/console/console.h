@@ -20,6 +20,8 @@ struct ConsoleSettings {
   /// Encrypted; for an address that others can reach in any case
   bool tls = false;
   std::string certificate, key;  ///< files of the centre's own; empty: made in the home
+  /// A room's folder: this console watches it; or a station's pairing file: this one is of it.
+  std::filesystem::path room;
 };
 
 /// A console that can be used.

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/console/own_door.h"
-#include "apps/console/tries.h"
 
 /// Who may ask the console what. Judged from the request alone, before anything is done for it.
 namespace palpa::console {
@@ -28,6 +27,9 @@ struct GuardVerdict {
 
 /// "/api/sessions/ID/stop": the emergency stop, before which no limit of writes stands.
 bool isStopPath(const std::string& path);
+
+/// The newest picture of this station's session, for whoever has the key that the room was told.
+extern const char* const kRoomPicture;
 
 /// Refuses foreign hosts (a page elsewhere whose name was bent to this address), foreign origins,
 /// writes without the page's key or with a number that was used before, floods, and everybody who

@@ -1,88 +1,142 @@
-#include <fstream>
 #include <string>
-#include <vector>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/film_table.h"
 #include "apps/console/routes.h"
-#include "apps/record/session_file.h"
+#include "apps/os/tls/openssl.h"
 
+/// The room: the other stations as the one console that watches them sees them, and this station's
+/// picture for it.
 namespace palpa::console {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
+using room::RoomWatch;
 
-constexpr const char* kFilm = "room.mjpeg";
-constexpr const char* kTable = "room.mjpeg.csv";
-constexpr std::uint64_t kLargest = 1 << 20;  // bytes of a picture
+constexpr char kKeyHeader[] = "X-Palpa-Room";
+constexpr std::chrono::seconds kAnswers{5}, kPictureComes{2};
+constexpr std::size_t kLargestPicture = 8u << 20;
 
-/// Of one trial's pictures [time of the trial in s, where in the film, bytes], in their order.
-json picturesOf(const fs::path& folder, int number) {
-  json all = json::array();
-  std::error_code none;
-  const std::uint64_t bytes = fs::file_size(folder / kFilm, none);
-  if (none) return all;
-  const std::vector<FilmPicture> pictures = filmTable(folder / kFilm);
-  const record::SessionReader session(folder / "session.palpa");
-  const training::TrialTimes times = record::trialTimes(session)[number];
-  for (const record::RecordedTrial& trial : session.trials()) {
-    if (trial.header.trial != number) continue;
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      const std::uint64_t to = i + 1 < pictures.size() ? pictures[i + 1].offset : bytes;
-      if (pictures[i].t_ns >= trial.header.t_ns && !trial.isOver(pictures[i].t_ns) &&
-          pictures[i].offset < to && to <= bytes)
-        all.push_back({times.at(pictures[i].t_ns), pictures[i].offset, to - pictures[i].offset});
-    }
+json described(const room::BrokerLine::State& line) {
+  return {{"stands", line.stands}, {"trouble", line.trouble}};
+}
+
+json described(const std::string& name, const RoomWatch::Station& station) {
+  json one = toJson(station.state);
+  one["name"] = name;
+  one["url"] = station.about ? station.about->url : "";
+  one["version"] = station.about ? station.about->version : "";
+  one["events"] = station.events;
+  return one;
+}
+
+json described(const Console& c) {
+  json all{{"joined", nullptr}, {"watch", nullptr}};
+  if (c.joined) {
+    all["joined"] = described(c.joined->line());
+    all["joined"]["station"] = c.joined->name();
   }
+  if (!c.watch) return all;
+  json stations = json::array();
+  for (const auto& [name, station] : c.watch->stations())
+    stations.push_back(described(name, station));
+  all["watch"] = {{"broker", described(c.watch->broker())},
+                  {"trouble", c.watch->trouble()},
+                  {"stations", stations}};
   return all;
 }
 
-/// Of twelve digits at most, as the paths here have them.
-std::uint64_t numberIn(const std::string& digits) { return std::stoull(digits); }
-
-/// One picture out of the film; nothing else in the folder can be asked for so.
-void sendPicture(httplib::Response& response, const fs::path& film, std::uint64_t offset,
-                 std::uint64_t bytes) {
-  std::string jpeg(bytes <= kLargest ? bytes : 0, '\0');
-  std::ifstream in(film, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(offset));
-  const bool read = in.read(jpeg.data(), static_cast<std::streamsize>(jpeg.size())).good();
-  if (!read || !jpeg.starts_with("\xff\xd8")) return refuse(response, 404, "is not here");
-  response.set_header("Cache-Control", "no-store");
-  response.set_content(jpeg, "image/jpeg");
+RoomWatch& watchOf(const Console& c) {
+  if (!c.watch)
+    throw UsageError("watches no room", "this console",
+                     "Start it with --room and the room's folder");
+  return *c.watch;
 }
 
-/// On somebody's wish; everything else of the session stays.
-void forget(httplib::Response& response, const fs::path& folder) {
-  for (const char* name : {kFilm, kTable}) {
-    std::error_code problem;
-    fs::remove(folder / name, problem);
-    if (problem)
-      throw Error("cannot be removed (" + problem.message() + ")", (folder / name).string(),
-                  "Make its folder writable");
-  }
-  answer(response, json::object());
+/// Only those whom the station has named are believed; OpenSSL's, for a client that takes it over.
+X509_STORE* believing(const std::string& authority) {
+  X509_STORE* const store = X509_STORE_new();
+  const os::openssl::Bio text = os::openssl::reader(authority);
+  while (const auto one = os::openssl::nextCertificate(text.get()))
+    X509_STORE_add_cert(store, one.get());
+  return store;
+}
+
+/// From the station itself. Empty: it has none to give.
+std::string pictureOf(const room::StationFacts& station) {
+  const std::string origin = station.url.substr(0, station.url.find_last_not_of('/') + 1);
+  httplib::Client client(origin);
+  if (!station.authority.empty()) client.set_ca_cert_store(believing(station.authority));
+  client.enable_server_certificate_verification(true);
+  client.set_connection_timeout(kPictureComes);
+  client.set_read_timeout(kPictureComes);
+  std::string picture;
+  const auto result = client.Get(
+      kRoomPicture, {{kKeyHeader, station.picture_key}},
+      [](const httplib::Response& answer) { return answer.status == 200; },
+      [&picture](const char* bytes, std::size_t count) {
+        picture.append(bytes, count);
+        return picture.size() <= kLargestPicture;
+      });
+  return result && picture.starts_with("\xff\xd8") ? picture : "";
+}
+
+void sendPictureOf(Console& c, const std::string& name, httplib::Response& r) {
+  const auto stations = watchOf(c).stations();
+  const auto found = stations.find(name);
+  if (found == stations.end() || !found->second.about) return refuse(r, 404, "is not in the room");
+  const std::string picture = pictureOf(*found->second.about);
+  if (picture.empty()) return refuse(r, 404, "has no picture to show now");
+  r.set_content(picture, "image/jpeg");
+}
+
+void askOf(Console& c, const std::string& name, const json& asked, httplib::Response& r) {
+  json message = asked;
+  message["id"] = randomKey();
+  const room::Ask ask = room::askIn(room::wire(message));
+  if (!watchOf(c).stations().contains(name)) return refuse(r, 404, name + " is not in the room");
+  const auto answered = watchOf(c).ask(name, ask, kAnswers);
+  if (!answered)
+    return refuse(r, 504,
+                  name + " did not answer: whether it was done is not known. Look at the station");
+  if (!answered->done) return refuse(r, 409, name + ": " + answered->words);
+  answer(r, json::object());
+}
+
+/// This station's own, for who watches the room.
+void sendOwnPicture(Console& c, const httplib::Request& q, httplib::Response& r) {
+  if (!c.joined || !c.joined->isPictureKey(q.get_header_value(kKeyHeader)))
+    return refuse(r, 403, "is for the console that watches this room");
+  const std::string id = c.sessions.running();
+  if (id.empty() || c.sessions.isBlind(id)) return refuse(r, 404, "there is no picture");
+  const auto link = c.sessions.link(id);
+  const auto picture = link ? link->picture(0, kPictureComes / 2) : SessionLink::Picture{};
+  if (!picture.jpeg) return refuse(r, 404, "there is no picture yet");
+  r.set_content(*picture.jpeg, "image/jpeg");
 }
 
 }  // namespace
 
 void addRoomRoutes(WebServer& server, Console& c) {
-  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/room)",
+  server.Get("/api/room",
+             [&c](const httplib::Request&, httplib::Response& r) { answer(r, described(c)); });
+  server.Get(R"(/api/room/([A-Za-z0-9_-]{1,32})/events)",
              [&c](const httplib::Request& q, httplib::Response& r) {
-               answer(r, picturesOf(c.sessions.shown(q.matches[1]),
-                                    static_cast<int>(wholeNumber(q.matches[2], 0))));
+               json all = json::array();
+               for (const room::Kept& kept : watchOf(c).happenings(q.matches[1])) {
+                 all.push_back(toJson(kept.happening));
+                 all.back()["utc"] = kept.utc;
+               }
+               answer(r, all);
              });
-  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/room/([0-9]{1,12})/([0-9]{1,7}))",
-             [&c](const httplib::Request& q, httplib::Response& r) {
-               sendPicture(r, c.sessions.shown(q.matches[1]) / kFilm, numberIn(q.matches[2]),
-                           numberIn(q.matches[3]));
-             });
-  server.Post(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/room/delete)",
+  server.Get(
+      R"(/api/room/([A-Za-z0-9_-]{1,32})/picture)",
+      [&c](const httplib::Request& q, httplib::Response& r) { sendPictureOf(c, q.matches[1], r); });
+  server.Post(R"(/api/room/([A-Za-z0-9_-]{1,32})/ask)",
               [&c](const httplib::Request& q, httplib::Response& r) {
-                bodyOf(q);
-                forget(r, c.sessions.shown(q.matches[1]));
+                askOf(c, q.matches[1], bodyOf(q), r);
               });
+  server.Get(kRoomPicture,
+             [&c](const httplib::Request& q, httplib::Response& r) { sendOwnPicture(c, q, r); });
 }
 
 }  // namespace palpa::console

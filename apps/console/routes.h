@@ -7,10 +7,12 @@
 
 #include "apps/console/jobs.h"
 #include "apps/console/place.h"
+#include "apps/console/room_station.h"
 #include "apps/console/sessions.h"
 #include "apps/console/stations.h"
 #include "apps/console/web_server.h"
 #include "apps/live/live_sink.h"
+#include "apps/room/watch.h"
 
 namespace palpa::console {
 
@@ -33,7 +35,9 @@ struct Console {
     nlohmann::json findings;  ///< as `palpa doctor --json` wrote it; null: not yet
     std::string checked_utc, job;
   } health;
-  Jobs jobs;  ///< last: its thread uses the rest until it has ended
+  Jobs jobs;                               ///< its thread uses what is above until it has ended
+  std::unique_ptr<room::RoomWatch> watch;  ///< of a room, or null
+  std::unique_ptr<RoomStation> joined;     ///< to a room, or null
 };
 
 /// One function a part of the house's API; each adds its paths to the server.
@@ -44,10 +48,13 @@ void addSessionRoutes(WebServer& server, Console& console);  ///< tasks, session
 void addLiveRoutes(WebServer& server, Console& console);     ///< events and pictures as they happen
 void addRatingRoutes(WebServer& server, Console& console);   ///< marks of a rater, the verdict
 void addReplayRoutes(WebServer& server, Console& console);   ///< a trial on one timeline
-void addRoomRoutes(WebServer& server, Console& console);     ///< the film of the room
+void addFilmRoutes(WebServer& server, Console& console);     ///< the film of the room
+void addRoomRoutes(WebServer& server, Console& console);     ///< the other stations, and this one
 void addOwnRoutes(WebServer& server, Console& console);      ///< a trainee's own results
 
 void checkHealth(Console& console);
+/// Throws UsageError for what cannot be held here, and where a session runs already.
+std::string beginSession(Console& console, SessionWish wish);
 
 /// A whole file as an answer; 404 where it is none.
 void sendFile(httplib::Response& response, const std::filesystem::path& file,

@@ -141,6 +141,13 @@ void finish(Console& c, const std::string& id, httplib::Response& response) {
 
 }  // namespace
 
+std::string beginSession(Console& c, SessionWish wish) {
+  const TaskChoice task = taskChoice(wish.task);
+  wish.title = task.title;
+  wish.simulated = isSimulated(c.place, stationKindOf(task.engine), wish.performer);
+  return c.sessions.begin(wish, sessionCommand(c, task, wish));
+}
+
 void addSessionRoutes(WebServer& server, Console& c) {
   server.Get("/api/tasks", [](const httplib::Request&, httplib::Response& r) {
     json all = json::array();
@@ -150,13 +157,10 @@ void addSessionRoutes(WebServer& server, Console& c) {
   server.Get("/api/sessions",
              [&c](const httplib::Request&, httplib::Response& r) { answer(r, c.sessions.list()); });
   server.Post("/api/sessions", [&c](const httplib::Request& q, httplib::Response& r) {
-    SessionWish wish = readWish(bodyOf(q));
-    const TaskChoice task = taskChoice(wish.task);
-    wish.title = task.title;
-    wish.simulated = isSimulated(c.place, stationKindOf(task.engine), wish.performer);
+    const SessionWish wish = readWish(bodyOf(q));
     if (c.sessions.oneRuns())
       return refuse(r, 409, "a session is running already: end it first, or wait until it is over");
-    answer(r, {{"id", c.sessions.begin(wish, sessionCommand(c, task, wish))}}, 201);
+    answer(r, {{"id", beginSession(c, wish)}}, 201);
   });
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64}))",
              [&c](const httplib::Request& q, httplib::Response& r) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-constexpr char kFacts[] = "console.json", kLog[] = "log.txt";
+constexpr char kFacts[] = "console.json", kLog[] = "log.txt", kTold[] = "told";
 
 json factsOf(const fs::path& folder) {
   try {
@@ -35,24 +35,41 @@ os::ProcessId processOf(const json& facts) {
   return {static_cast<int>(number("pid")), static_cast<std::uint64_t>(number("began"))};
 }
 
-/// The newest folder with results: the session's own, or where a study put its last block
-/// (TRAINEE/BLOCK).
-fs::path resultsIn(const fs::path& folder) {
+/// The session's own, or where a study put those of its blocks (TRAINEE/BLOCK).
+std::vector<fs::path> recordsIn(const fs::path& folder) {
   constexpr int kDeepest = 2;
   constexpr char kEvidence[] = "session.palpa";
   std::error_code none;
-  if (fs::exists(folder / kEvidence, none)) return folder;
-  fs::path newest = folder;
-  fs::file_time_type began = fs::file_time_type::min();
+  if (fs::exists(folder / kEvidence, none)) return {folder / kEvidence};
+  std::vector<std::pair<fs::file_time_type, fs::path>> found;
   for (auto entry = fs::recursive_directory_iterator(folder, none);
        entry != fs::recursive_directory_iterator(); entry.increment(none)) {
     if (entry.depth() >= kDeepest || entry->path().filename() == "demonstration")
       entry.disable_recursion_pending();
-    if (entry->path().filename() != kEvidence || entry->last_write_time(none) < began) continue;
-    newest = entry->path().parent_path();
-    began = entry->last_write_time(none);
+    if (entry->path().filename() == kEvidence)
+      found.emplace_back(entry->last_write_time(none), entry->path());
   }
-  return newest;
+  std::sort(found.begin(), found.end());
+  std::vector<fs::path> records;
+  for (auto& [written, record] : found) records.push_back(std::move(record));
+  return records;
+}
+
+/// The newest folder with results.
+fs::path resultsIn(const fs::path& folder) {
+  const std::vector<fs::path> records = recordsIn(folder);
+  return records.empty() ? folder : records.back().parent_path();
+}
+
+/// Of all that are kept, the oldest first.
+std::vector<std::string> idsIn(const fs::path& sessions) {
+  std::vector<std::string> ids;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(sessions, none))
+    if (isId(entry.path().filename().string()) && fs::exists(entry.path() / kFacts, none))
+      ids.push_back(entry.path().filename().string());
+  std::sort(ids.begin(), ids.end());
+  return ids;
 }
 
 json filesIn(const fs::path& folder) {
@@ -217,12 +234,8 @@ json Sessions::list() {
   constexpr int kReadAtOnce = 4;
   look();
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> ids;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(place_.sessions(), none))
-    if (isId(entry.path().filename().string()) && fs::exists(entry.path() / kFacts, none))
-      ids.push_back(entry.path().filename().string());
-  std::sort(ids.rbegin(), ids.rend());
+  std::vector<std::string> ids = idsIn(place_.sessions());
+  std::reverse(ids.begin(), ids.end());
   json all = json::array();
   int read = kReadAtOnce;
   for (const std::string& id : ids) {
@@ -271,11 +284,32 @@ std::shared_ptr<SessionLink> Sessions::linkForStop(const std::string& id) const 
   return found == links_.end() ? nullptr : found->second;
 }
 
-bool Sessions::oneRuns() {
+std::string Sessions::running() {
   look();
   const std::lock_guard lock(mutex_);
-  return std::any_of(running_.begin(), running_.end(),
-                     [](const auto& one) { return !one.second.over; });
+  for (const auto& [id, one] : running_)
+    if (!one.over) return id;
+  return "";
+}
+
+std::vector<std::string> Sessions::untold() {
+  std::vector<std::string> ids;
+  const std::string on = running();
+  for (std::string& id : idsIn(place_.sessions()))
+    if (id != on && !factsOf(place_.sessions() / id).value(kTold, false))
+      ids.push_back(std::move(id));
+  return ids;
+}
+
+void Sessions::markTold(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  json facts = factsOf(folder(id));
+  facts[kTold] = true;
+  writeWhole(folder(id) / kFacts, facts.dump(1) + "\n", Lasts::no);
+}
+
+std::vector<fs::path> Sessions::records(const std::string& id) const {
+  return recordsIn(folder(id));
 }
 
 }  // namespace palpa::console

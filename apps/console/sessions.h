@@ -59,7 +59,14 @@ class Sessions {
   std::shared_ptr<SessionLink> link(const std::string& id);
   /// The same without a look at files or processes: an emergency stop waits for neither.
   std::shared_ptr<SessionLink> linkForStop(const std::string& id) const;
-  bool oneRuns();
+  std::string running();  ///< id; empty: none runs
+  bool oneRuns() { return !running().empty(); }
+  /// Of all that are over, the oldest first, which the room has not heard whole; and that it has
+  /// now.
+  std::vector<std::string> untold();
+  void markTold(const std::string& id);
+  /// The records of one that is over, in their order; of a study's blocks one each.
+  std::vector<std::filesystem::path> records(const std::string& id) const;
   /// Looks whether the running ones have ended; called now and then.
   void look();
 

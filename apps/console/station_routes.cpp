@@ -64,6 +64,7 @@ json me(const Console& c, bool entered) {
   all["open_to_others"] = c.openToOthers();
   all["stations"] = json::array();
   for (const StationKind kind : kStationKinds) all["stations"].push_back(described(c, kind));
+  all["room"] = {{"watches", c.watch != nullptr}, {"station", c.joined ? c.joined->name() : ""}};
   return all;
 }
 

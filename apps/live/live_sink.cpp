@@ -99,19 +99,23 @@ void LiveSink::tick(const haptics::FlightRecord& record) {
   if (record.tool == 0) last_ = record;
 }
 
+std::string eventEntry(const runtime::Event& event, std::int64_t number, const ToneOf& tone) {
+  if (event.is(runtime::EventKind::picture) || event.is(runtime::EventKind::trial_case)) return "";
+  return entryOf({{"kind", "event"},
+                  {"number", number},
+                  {"t_s", secondsOf(event.t_ns)},
+                  {"about_s", secondsOf(event.about_ns())},
+                  {"trial", event.trial},
+                  {"event", event.kind},
+                  {"text", event.text},
+                  {"tone", tone(event)},
+                  {"value", event.value}});
+}
+
 void LiveSink::event(const runtime::Event& event) {
   evidence_.event(event);
-  // Whoever looks on sees the moment itself; what a trial is about is written for programs, and is
-  // the answer.
-  if (event.is(runtime::EventKind::picture) || event.is(runtime::EventKind::trial_case)) return;
-  log_.add(entryOf({{"kind", "event"},
-                    {"t_s", secondsOf(event.t_ns)},
-                    {"about_s", secondsOf(event.about_ns())},
-                    {"trial", event.trial},
-                    {"event", event.kind},
-                    {"text", event.text},
-                    {"tone", tone_(event)},
-                    {"value", event.value}}));
+  if (std::string entry = eventEntry(event, events_++, tone_); !entry.empty())
+    log_.add(std::move(entry));
 }
 
 void LiveSink::endTrial(const runtime::TrialEnd& end) {

@@ -22,7 +22,7 @@ const kReasons = [
  * Resolves to what `answer` gives (a string: it is wrong, and why, is { wrong }),
  * or null when cancelled.
  */
-function ask({ title, about, body, yes, danger, answer }) {
+export function request({ title, about, body, yes, danger, answer }) {
   return new Promise((resolve) => {
     const id = newId("dialog"),
       said = h("div", {});
@@ -65,7 +65,7 @@ function ask({ title, about, body, yes, danger, answer }) {
 }
 
 export const confirmed = (title, about, yes, danger = true) =>
-  ask({ title, about, body: null, yes, danger, answer: () => true });
+  request({ title, about, body: null, yes, danger, answer: () => true });
 
 /** Why a trial does not count: one of four reasons, the last in the educator's own words. */
 export function askVoidReason(trial) {
@@ -85,7 +85,7 @@ export function askVoidReason(trial) {
     own.hidden = e.target.value !== "other";
     if (!own.hidden) words.focus();
   });
-  return ask({
+  return request({
     title: `Void trial ${trial}?`,
     about:
       "A void trial is kept with its reason but counts for nothing. " +

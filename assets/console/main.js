@@ -18,6 +18,7 @@ const routes = [
   ["replay/:id/:n", () => import("./page_replay.js")],
   ["studies", () => import("./page_studies.js")],
   ["enter", () => import("./page_enter.js")],
+  ["room", () => import("./page_room.js")],
   ["mine", () => import("./page_mine.js")],
 ];
 
@@ -55,10 +56,13 @@ function remember(here) {
       s.simulated ? simulatedBadge() : null,
     ]),
   );
+  document.getElementById("nav-room").hidden = !here.room?.watches;
   say(
     document.getElementById("foot"),
-    `Palpa ${here.version || ""} · Records stay on this station · ` +
-      "Pseudonyms only, nothing leaves this computer.",
+    `Palpa ${here.version || ""} · Pseudonyms only · ` +
+      (here.room?.station
+        ? `The room's console sees how ${here.room.station} stands, without records`
+        : "Records stay on this station, nothing leaves this computer."),
   );
 }
 

@@ -2,7 +2,9 @@
 import { get, post } from "./api.js";
 import { announce, h, mark, put } from "./dom.js";
 import { capital, moment, plural, withoutPaths } from "./format.js";
-import { badge, button } from "./parts.js";
+import { badge, button, notice } from "./parts.js";
+
+const kRoom_ms = 2000;
 
 const kStates = {
   well: ["good", "well"],
@@ -60,11 +62,30 @@ function finding(f) {
   );
 }
 
-export async function show({ root, life, open }) {
+/** This station's place in its room; what goes wrong there changes nothing here. */
+async function lookForRoom(node) {
+  const { joined } = await get("/api/room");
+  if (!joined || node.dataset.shown === JSON.stringify(joined)) return;
+  node.dataset.shown = JSON.stringify(joined);
+  put(
+    node,
+    joined.stands && !joined.trouble
+      ? notice("good", `In the room as ${joined.station}.`)
+      : notice(
+          "note",
+          joined.trouble || "The room's broker is being reached…",
+          h("p", {}, "This station goes on alone: what its sessions record is told later."),
+        ),
+  );
+}
+
+export async function show({ root, life, open, me }) {
   open("Station");
   const hero = h("section", { class: "hero", "aria-labelledby": "health-sentence" }),
+    room = h("div", {}),
     list = h("div", {});
-  root.append(hero, list);
+  root.append(hero, room, list);
+  if (me.room?.station) life.every(kRoom_ms, () => lookForRoom(room));
   let shown = "";
   const look = async () => {
     const health = await get("/api/health");

@@ -34,7 +34,7 @@ export async function roomFilm(session, trial) {
     reel = new RoomPictures(img, session, pictures);
   const node = h(
     "section",
-    { class: "card room", "aria-label": "The room" },
+    { class: "card room-film", "aria-label": "The room" },
     h("figure", {}, img),
     h("h2", {}, "The room"),
     h("p", { class: "muted" }, "Filmed with the trainee's agreement. It is in no export."),

@@ -57,7 +57,8 @@ int playSession(const std::vector<std::string>& arguments) {
   };
   const auto until = runtime::ServingClock::now() + kLongestPlay;
   for (int number = 1; runtime::ServingClock::now() < until; ++number) {
-    session.log().add("{\"kind\":\"event\",\"number\":" + std::to_string(number) + "}");
+    session.log().add(R"({"kind":"event","event":"phase","text":"on","tone":"neutral","number":)" +
+                      std::to_string(number) + "}");
     if (session.wantsPicture(number * 100'000'000ll))
       session.picture({32, 32, 3, std::vector<std::uint8_t>(32 * 32 * 3, 128)},
                       number * 100'000'000ll);

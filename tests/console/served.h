@@ -40,8 +40,11 @@ bool inTime(Seen seen) {
 
 class Served {
  public:
+  /// `room`: a room's folder, or a station's pairing file.
   Served(const std::filesystem::path& home, const std::string& sockets,
-         const std::string& token = "") {
+         const std::string& token = "", const std::filesystem::path& room = {}) {
+    settings_.room = room;
+    settings_.tone = [](const runtime::Event&) { return "neutral"; };
     settings_.token = token;
     if (!token.empty()) settings_.names = {"station.test"};  // others come to it by that
     settings_.place.home = home;

@@ -130,10 +130,11 @@ TEST(LiveSink, EvidenceGetsEverythingAndTheLogWhatCanBeTold) {
   s.sink.snapshot({});
   s.sink.keyframe(1, {});
   s.sink.event({1'500'000'000, 1, "puncture", "Skin punctured at 1.8 N", 1.8});
+  s.sink.event({1'550'000'000, 1, "picture", "view-01-01-puncture.png: Punctured", 1});
   s.sink.event({1'600'000'000, 1, "note", "<b>good</b>", 0});
   s.sink.commit();
   s.sink.endTrial({});
-  EXPECT_EQ(s.evidence.got.size(), 107u);
+  EXPECT_EQ(s.evidence.got.size(), 108u);
   const std::vector<json> told = s.told();
   ASSERT_EQ(told.size(), 5u);
   EXPECT_EQ(told[0]["kind"], "trial");
@@ -141,6 +142,9 @@ TEST(LiveSink, EvidenceGetsEverythingAndTheLogWhatCanBeTold) {
   EXPECT_EQ(told[1]["t_s"], 1.5);
   EXPECT_EQ(told[2]["text"], "<b>good</b>");
   EXPECT_EQ(told[2]["tone"], "note");
+  // Of all that the record has.
+  EXPECT_EQ(told[1]["number"], 0);
+  EXPECT_EQ(told[2]["number"], 2);
   EXPECT_EQ(told[3]["kind"], "curve");
   EXPECT_EQ(told[4]["kind"], "trial_end");
 }

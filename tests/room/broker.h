@@ -28,7 +28,9 @@ inline int freePort() { return os::TcpListener("127.0.0.1", 0).port(); }
 /// The broker that Debian has, with a room's own settings.
 class Broker {
  public:
-  explicit Broker(std::string settings) : settings_(std::move(settings)) { start(); }
+  explicit Broker(const Room& room) : settings_(room.brokerSettings()), port_(room.port()) {
+    start();
+  }
   ~Broker() { kill(SIGTERM); }
   Broker(const Broker&) = delete;
   Broker& operator=(const Broker&) = delete;
@@ -36,12 +38,8 @@ class Broker {
   static bool isInstalled() { return access("/usr/sbin/mosquitto", X_OK) == 0; }
   void start() {
     process_ = fork();
-    if (process_ != 0) return;
-    const int log = open((settings_ + ".log").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-    dup2(log, 1);
-    dup2(log, 2);
-    execl("/usr/sbin/mosquitto", "mosquitto", "-c", settings_.c_str(), nullptr);
-    _exit(127);
+    if (process_ == 0) become();
+    EXPECT_TRUE(soon([this] { return answers(); }));
   }
   void kill(int signal) {
     if (process_ <= 0) return;
@@ -52,7 +50,21 @@ class Broker {
   void readAgain() const { ::kill(process_, SIGHUP); }
 
  private:
+  [[noreturn]] void become() const {
+    const int log = open((settings_ + ".log").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+    dup2(log, 1);
+    dup2(log, 2);
+    execl("/usr/sbin/mosquitto", "mosquitto", "-c", settings_.c_str(), nullptr);
+    _exit(127);
+  }
+  /// It listens, and heeds signals.
+  bool answers() const {
+    const auto line = os::TcpSocket::connecting("127.0.0.1", static_cast<std::uint16_t>(port_));
+    return line.connected(100) == os::TcpSocket::Progress::done;
+  }
+
   const std::string settings_;
+  const int port_;
   pid_t process_ = -1;
 };
 

@@ -19,7 +19,7 @@ class RoomOfStations : public testing::Test {
  protected:
   void SetUp() override {
     if (!Broker::isInstalled()) GTEST_SKIP() << "mosquitto is not installed";
-    broker_.emplace(room_.brokerSettings().string());
+    broker_.emplace(room_);
   }
   std::unique_ptr<RoomWatch> watch() {
     return std::make_unique<RoomWatch>(room_.watcher(today()), scratch_ / "watch");

@@ -53,9 +53,9 @@ void writeFilm(const fs::path& folder) {
   table << "4,59";  // as a killed session may leave it
 }
 
-class RoomRoutes : public testing::Test {
+class FilmRoutes : public testing::Test {
  protected:
-  RoomRoutes() : place_("room-routes") {
+  FilmRoutes() : place_("film-routes") {
     fs::create_directories(folder());
     writeEvidence(folder());
     writeFilm(folder());
@@ -82,7 +82,7 @@ class RoomRoutes : public testing::Test {
   palpa::test::ShortFolder sockets_;
 };
 
-TEST_F(RoomRoutes, PicturesHaveTheTrialsTimeWithoutItsPauses) {
+TEST_F(FilmRoutes, PicturesHaveTheTrialsTimeWithoutItsPauses) {
   Served console(home(), sockets_.path());
   httplib::Client client = console.client();
   const auto answer = client.Get("/api/sessions/A1/trials/1/room");
@@ -101,7 +101,7 @@ TEST_F(RoomRoutes, PicturesHaveTheTrialsTimeWithoutItsPauses) {
   }
 }
 
-TEST_F(RoomRoutes, AFilmMayBeLong) {
+TEST_F(FilmRoutes, AFilmMayBeLong) {
   std::ofstream(folder() / "room.mjpeg", std::ios::binary)
       << std::string(1'234'567, '.') << "\xff\xd8late";
   Served console(home(), sockets_.path());
@@ -110,7 +110,7 @@ TEST_F(RoomRoutes, AFilmMayBeLong) {
   EXPECT_EQ(picture->body, "\xff\xd8late");
 }
 
-TEST_F(RoomRoutes, NothingButAPictureCanBeTakenOut) {
+TEST_F(FilmRoutes, NothingButAPictureCanBeTakenOut) {
   Served console(home(), sockets_.path());
   httplib::Client client = console.client();
   for (const char* path : {"room/1/5", "room/0/0", "room/0/9999999", "room/999999999999/5"})
@@ -118,7 +118,7 @@ TEST_F(RoomRoutes, NothingButAPictureCanBeTakenOut) {
   EXPECT_EQ(json::parse(client.Get("/api/sessions/A1/trials/2/room")->body).size(), 0u);
 }
 
-TEST_F(RoomRoutes, ItIsDeletedOnAWishAndNothingElseIs) {
+TEST_F(FilmRoutes, ItIsDeletedOnAWishAndNothingElseIs) {
   Served console(home(), sockets_.path());
   EXPECT_EQ(console.post("/api/sessions/A1/room/delete", json::object()), 200);
   EXPECT_FALSE(fs::exists(folder() / "room.mjpeg"));
@@ -129,7 +129,7 @@ TEST_F(RoomRoutes, ItIsDeletedOnAWishAndNothingElseIs) {
 }
 
 // A trainee may withdraw before the first trial, and evidence may be damaged.
-TEST_F(RoomRoutes, ItIsFoundAndDeletedWhateverElseIsThere) {
+TEST_F(FilmRoutes, ItIsFoundAndDeletedWhateverElseIsThere) {
   std::ofstream(folder() / "session.palpa") << "damaged";
   Served console(home(), sockets_.path());
   EXPECT_EQ(console.get("/api/sessions/A1")["film"], true);
@@ -137,12 +137,12 @@ TEST_F(RoomRoutes, ItIsFoundAndDeletedWhateverElseIsThere) {
   EXPECT_EQ(console.get("/api/sessions/A1")["film"], false);
 }
 
-TEST_F(RoomRoutes, WhoIsFilmedIsSaid) {
+TEST_F(FilmRoutes, WhoIsFilmedIsSaid) {
   Served console(home(), sockets_.path());
   EXPECT_EQ(console.get("/api/sessions/A1")["filmed"], true);
 }
 
-TEST_F(RoomRoutes, ABlindStudyShowsNone) {
+TEST_F(FilmRoutes, ABlindStudyShowsNone) {
   describe(true);
   Served console(home(), sockets_.path());
   httplib::Client client = console.client();
