@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# tls_only.sh PROGRAM TAP: a station in one network namespace, its room (broker, console that
+#   watches) in another; a session is prepared, watched, stopped and ended from there, while TAP
+#   listens in on the wire between: TLS only. A plain word on that wire is found, too.
+set -uo pipefail
+palpa=$1 tap=$2
+if [ -z "${PALPA_TWO_NETWORKS:-}" ]; then
+  for tool in unshare ip mosquitto curl; do
+    command -v $tool >/dev/null || [ -x /usr/sbin/$tool ] || {
+      echo "Skipped: $tool is not installed"
+      exit 77
+    }
+  done
+  unshare -rn true 2>/dev/null || {
+    echo "Skipped: no network of its own may be made here"
+    exit 77
+  }
+  PALPA_TWO_NETWORKS=1 exec unshare -rn bash "$0" "$@"
+fi
+PATH=$PATH:/usr/sbin:/sbin
+work=$(mktemp -d)
+trap 'kill $(jobs -p) 2>/dev/null; wait 2>/dev/null; rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data XDG_RUNTIME_DIR=$work/run
+mkdir -m 700 "$work/run"
+cd "$work" || exit 1
+fail() {
+  echo "$1"
+  tail -n 5 "$work"/*.log
+  exit 1
+}
+# soon WORDS COMMAND...: within a minute
+soon() {
+  local words=$1
+  shift
+  for _ in $(seq 300); do
+    "$@" >/dev/null 2>&1 && return
+    sleep 0.2
+  done
+  fail "$words"
+}
+
+unshare -n sleep 600 &
+there=$!
+sleep 0.2
+ip link set lo up
+ip link add wire type veth peer name wire-there
+ip link set wire-there netns $there
+room() { nsenter -t $there -n "$@"; }
+ip addr add 10.77.0.1/24 dev wire && ip link set wire up
+room ip link set lo up
+room ip addr add 10.77.0.2/24 dev wire-there && room ip link set wire-there up
+
+"$palpa" console pair one --broker 10.77.0.2 --room "$work/room" >/dev/null || fail "no pairing"
+"$tap" wire >tap.txt &
+listens=$!
+soon "the tap does not listen" grep -q listening tap.txt
+room mosquitto -c "$work/room/mosquitto.conf" >broker.log 2>&1 &
+room "$palpa" console --no-open --home "$work/watch" --port 8090 --room "$work/room" \
+  >watch.log 2>&1 &
+head -c 24 /dev/urandom | base64 >token
+chmod 600 token
+"$palpa" console --no-open --home "$work/station" --listen 10.77.0.1 --port 8443 \
+  --token-file token --room one.palpa-pairing >station.log 2>&1 &
+
+at=http://127.0.0.1:8090
+get() { room curl -sf "$at$1"; }
+key() { get /api/me | sed 's/.*"page_key":"\([0-9a-f]*\)".*/\1/'; }
+number() { head -c 16 /dev/urandom | od -An -tx1 | tr -d ' \n'; }
+ask() {
+  room curl -sf -X POST -H "Origin: $at" -H 'Content-Type: application/json' \
+    -H "X-Palpa-Page: $(key)" -H "X-Palpa-Write: $(number)" -d "$1" "$at/api/room/one/ask"
+}
+stands() { get /api/room | grep -q "$1"; }
+soon "the station did not come" stands '"present":true'
+expert='{"ask":"prepare","wish":{"task":"paracentesis","operator":"expert"}}'
+soon "no session was prepared" ask "$expert"
+soon "no trial ran" stands '"state":"running"'
+soon "no picture came" get /api/room/one/picture
+ask '{"ask":"pause"}' >/dev/null || fail "it was not paused"
+ask '{"ask":"stop"}' >/dev/null || fail "it was not stopped"
+soon "the stop was not told" stands '"emergency_stop":true'
+ask '{"ask":"leave"}' >/dev/null || fail "it was not ended"
+soon "it did not end" stands '"state":"free"'
+events=$(get /api/room/one/events | grep -o '"number"' | wc -l)
+[ "$events" -ge 5 ] || fail "only $events events came"
+
+kill $listens
+wait $listens || {
+  cat tap.txt
+  fail "something went by that was no TLS"
+}
+tail -n 1 tap.txt
+
+# The tap itself: a plain word, and it is told.
+"$tap" wire >plain.txt &
+listens=$!
+soon "the tap does not listen" grep -q listening plain.txt
+curl -s -m 5 http://10.77.0.1:8443/ >/dev/null
+room curl -s -m 5 http://10.77.0.1:8443/ >/dev/null
+kill $listens
+wait $listens && fail "a plain word went by unheard"
+grep -q 'plain: GET /' plain.txt || fail "a plain word was not shown"
