@@ -99,6 +99,7 @@ Findings table(const station::Station& station, const PictureFacts& pictures,
   const bool falcon = station.device.driver == station::DeviceDriver::falcon;
   Findings all = judgePictures(pictures, station.camera_rate_Hz, station.camera);
   all.push_back(judgePrint(station, o.bar_mm));
+  all.push_back(askPedal(station));
   all.push_back(askDevice(station.device));
   if (falcon)
     append(all, {askFirmware(station.device), askUdevRule(udevFolders()),

@@ -5,6 +5,7 @@
 #include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/doctor/finding.h"
+#include "apps/os/pedal.h"
 #include "apps/record/store/store_look.h"
 #include "apps/station/calibrations.h"
 
@@ -67,6 +68,18 @@ Findings judgeCalibrations(const station::Station& station, const std::string& n
                  (station.calibration_date.empty() ? "" : ": " + station.calibration_date)}};
   return {{"calibrations", State::note,
            station.calibration_verdict.empty() ? "missing" : station.calibration_verdict, kAnew}};
+}
+
+Finding askPedal(const station::Station& station) {
+  constexpr const char* kPedal = "stop pedal";
+  if (station.stop_pedal.empty())
+    return {kPedal, State::absent, "none: the emergency stop is the space bar and the console"};
+  try {
+    const os::Pedal pedal(station.stop_pedal);
+    return {kPedal, State::well, "is there; press it in a session once, to be sure of it"};
+  } catch (const Error& e) {
+    return troubled(kPedal, State::ill, e.what());
+  }
 }
 
 Finding judgePrint(const station::Station& station, double bar_mm) {

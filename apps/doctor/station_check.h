@@ -19,6 +19,10 @@ Findings judgeCalibrations(const station::Station& station, const std::string& n
 /// nobody measured. A registration by a tag on the tool has compared camera and device.
 Finding judgePrint(const station::Station& station, double bar_mm);
 
+/// The stop pedal, asked for whether it can be heard; a session does not start without one that the
+/// station names.
+Finding askPedal(const station::Station& station);
+
 /// A store of records: its version, whether it is empty, damaged or cannot be reached, how many
 /// sessions wait for it. A session starts without it; what was recorded is delivered later. It is
 /// only looked at: nothing is made, filled or migrated.

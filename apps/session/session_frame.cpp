@@ -268,6 +268,9 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   const WindowWatch window([&watch] { watch.windowIsLost(); });
   std::optional<StopKeyWatch> stop_key;
   if (stop_key_) stop_key.emplace(*stop_key_, bus_.stop);
+  std::optional<PedalWatch> pedal;
+  if (mode_ == runtime::TimeMode::real && !world_.station.stop_pedal.empty())
+    pedal.emplace(world_.station.stop_pedal, channels_, bus_.stop);
   devices_.addTo(*executive_);
   if (const std::string warning = devices_.warning(); !warning.empty()) task.warn(warning);
   if (window_ && !options_.fast) task.stay();
@@ -281,6 +284,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   executive_->add(progress, {7, false, false});
   executive_->add(watch, {8, false, false});
   if (stop_key) executive_->add(*stop_key, {9, false, false});
+  if (pedal) executive_->add(*pedal, {13, false, false});
   std::optional<Meanwhile> meanwhile;
   if (options_.meanwhile && mode_ == runtime::TimeMode::virtual_time)
     executive_->add(meanwhile.emplace(options_, channels_, bus_.stop), {10, false, false});

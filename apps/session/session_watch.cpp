@@ -121,4 +121,22 @@ std::int64_t StopKeyWatch::step(std::int64_t now_ns) {
   return now_ns;
 }
 
+void PedalWatch::hear() {
+  if (!pedal_.pressed()) return;
+  stop_.press();
+  if (pedal_.descriptor() < 0)
+    channels_.signals_to_task.push(
+        {trial::UserCommand::remark,
+         "The stop pedal is gone. Forces are off; without it use the space bar", 1});
+}
+
+std::int64_t PedalWatch::step(std::int64_t now_ns) {
+  hear();
+  if (pedal_.descriptor() < 0) return runtime::kNever;
+  const std::array<os::WatchedSocket, 1> watched{{{pedal_.descriptor()}}};
+  os::waitForAny(watched, kKeyWait_ms);
+  hear();
+  return now_ns;
+}
+
 }  // namespace palpa::session

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/live/live_session.h"
+#include "apps/os/pedal.h"
 #include "apps/os/signals.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/device_activity.h"
@@ -74,6 +75,23 @@ class StopKeyWatch final : public runtime::Activity {
 
  private:
   scene::StopKey& key_;
+  runtime::StopSwitch& stop_;
+};
+
+/// The stop pedal's thread, whatever the desktop does. One that is pulled out stops, too: nobody
+/// knows any more whether it would be heard. Real time only.
+class PedalWatch final : public runtime::Activity {
+ public:
+  /// Throws Error as os::Pedal does.
+  PedalWatch(const std::string& device, trial::Channels& channels, runtime::StopSwitch& stop)
+      : pedal_(device), channels_(channels), stop_(stop) {}
+  const char* name() const override { return "stop pedal"; }
+  std::int64_t step(std::int64_t now_ns) override;
+
+ private:
+  void hear();
+  os::Pedal pedal_;
+  trial::Channels& channels_;
   runtime::StopSwitch& stop_;
 };
 

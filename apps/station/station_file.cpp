@@ -148,6 +148,11 @@ Station readStation(const std::filesystem::path& path) {
   s.camera = readCamera(file);
   s.camera_setup = readCameraSetup(file);
   s.tracker = readTracker(file);
+  if (file.has("stop_pedal")) {
+    s.stop_pedal = file.text("stop_pedal");
+    if (!s.stop_pedal.starts_with('/'))
+      file.refuse("stop_pedal", "is no path such as /dev/input/by-id/...-event-kbd");
+  }
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
   const bool on_bench = s.camera_setup.driver ==
                         CameraDriver::bench;  // where a picture is seen before the next is taken

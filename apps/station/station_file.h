@@ -73,6 +73,7 @@ struct Station {
   std::optional<TrackerSetup> tracker;  ///< says where the camera is, in place of the board
   ar::TagGridSpec board;
   double decimate = 2;
+  std::string stop_pedal;  ///< the kernel's device of a foot switch: an emergency stop; or none
   double camera_rate_Hz = 15;
   double camera_latency_s = 0.05;
   std::vector<OtherBoard> boards;  ///< besides the table's

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# desktop_gone.sh PROGRAM PRESS: sessions in real time whose X server dies or hangs, whose window
+# desktop_gone.sh PROGRAM PRESS BENCH: sessions in real time whose X server dies or hangs, whose window
 # another program destroys, whose terminal hangs up. Each ends in order, with report and table.
-# PRESS: presses a session's emergency stop by its socket.
+# PRESS: presses a session's emergency stop by its socket. BENCH: the virtual bench's station file.
 # PALPA_FULL=1: 50 of each, two at a time; otherwise one, and of the two ways to lose a window one.
 set -uo pipefail
-palpa=$1 press=$2
+palpa=$1 press=$2 bench=$3
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../package/expect.sh"
 for tool in Xvfb xdotool; do
@@ -33,8 +33,8 @@ begin() {   # a session of a simulated expert, in a window of a display of its o
   server=$!
   until_true 20 test -s "$place/display"
   export DISPLAY=:$(cat "$place/display")
-  "$palpa" subclavian --display window --operator expert --trials 9 --quiet --out "$out" \
-    --live "$out.live" >"$out.said" 2>&1 &
+  "$palpa" subclavian --station "$place/station.json" --display window --operator expert \
+    --trials 9 --quiet --out "$out" --live "$out.live" >"$out.said" 2>&1 &
   program=$!
   until_true 120 test -s "$out/session.palpa"
   sleep $((1 + number % 3)).$((number % 10))  # another moment of the trial in each round
@@ -71,6 +71,11 @@ one_round() {   # NUMBER: a session of each kind
   trap 'kill -KILL $server $program 2>/dev/null; rm -rf "$place"' EXIT
   export HOME=$place XDG_STATE_HOME=$place/state XDG_DATA_HOME=$place/data
 
+  # The virtual bench with a stop pedal, whose end of the line is here.
+  mkfifo "$place/pedal"
+  exec 9<>"$place/pedal"
+  sed "s#^{#{\"stop_pedal\": \"$place/pedal\",#" "$bench" >"$place/station.json"
+
   begin server
   kill -KILL $server
   finished "X server killed"
@@ -98,6 +103,21 @@ one_round() {   # NUMBER: a session of each kind
   finished "X server hangs" pressed
   expect "X server hangs: no force after the stop" stopped
   expect "X server hangs: it is named" grep -q 'the picture does not answer' "$out/report.html"
+
+  pedal_while_hung
+}
+
+# The same by the pedal alone: a key of it goes down (input_event: time, EV_KEY, KEY_B, 1).
+pedal_while_hung() {
+  begin pedal
+  kill -STOP $server
+  sleep 1
+  head -c 16 /dev/zero >&9
+  printf '\x01\x00\x30\x00\x01\x00\x00\x00' >&9
+  sleep 3
+  kill -TERM $program
+  finished "X server hangs, pedal" pressed
+  expect "X server hangs, pedal: no force after the stop" stopped
 }
 
 for round in $(seq $sessions); do

@@ -97,6 +97,15 @@ TEST(DoctorsRecords, AreLookedAtAndNotUsed) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
+TEST(DoctorsPedal, IsThereOrIsNamed) {
+  station::Station station = benchStation();
+  expectSays(askPedal(station), State::absent, "none");
+  station.stop_pedal = "/dev/null";
+  expectSays(askPedal(station), State::well, "is there");
+  station.stop_pedal = "/dev/input/by-id/nowhere";
+  expectSays(askPedal(station), State::ill, "is not there");
+}
+
 TEST(DoctorsBoard, ThePrintIsMeasuredOrHasBeen) {
   station::Station station = benchStation();
   expectSays(judgePrint(station, 0), State::well, "simulated");
