@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# desktop_gone.sh PROGRAM PRESS BENCH: sessions in real time whose X server dies or hangs, whose window
-# another program destroys, whose terminal hangs up. Each ends in order, with report and table.
+# desktop_gone.sh PROGRAM PRESS BENCH: sessions in real time whose X server dies or hangs, whose
+# window another program destroys, whose terminal hangs up. Each ends in order, with report and
+# table.
 # PRESS: presses a session's emergency stop by its socket. BENCH: the virtual bench's station file.
 # PALPA_FULL=1: 50 of each, two at a time; otherwise one, and of the two ways to lose a window one.
 set -uo pipefail
@@ -72,9 +73,9 @@ one_round() {   # NUMBER: a session of each kind
   export HOME=$place XDG_STATE_HOME=$place/state XDG_DATA_HOME=$place/data
 
   # The virtual bench with a stop pedal, whose end of the line is here.
-  mkfifo "$place/pedal"
-  exec 9<>"$place/pedal"
-  sed "s#^{#{\"stop_pedal\": \"$place/pedal\",#" "$bench" >"$place/station.json"
+  mkfifo "$place/foot"
+  exec 9<>"$place/foot"
+  sed "s#^{#{\"stop_pedal\": \"$place/foot\",#" "$bench" >"$place/station.json"
 
   begin server
   kill -KILL $server
@@ -112,8 +113,7 @@ pedal_while_hung() {
   begin pedal
   kill -STOP $server
   sleep 1
-  head -c 16 /dev/zero >&9
-  printf '\x01\x00\x30\x00\x01\x00\x00\x00' >&9
+  printf '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\1\0\60\0\1\0\0\0' >&9
   sleep 3
   kill -TERM $program
   finished "X server hangs, pedal" pressed

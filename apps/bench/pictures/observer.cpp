@@ -15,7 +15,6 @@ constexpr float kUnseen = -1;
 constexpr double kShadow = 0.025;       // the least shade of one
 constexpr double kHiddenGap = 0.0015;   // m: where no shadow is seen beside a needle
 constexpr double kHiddenDepth = 0.003;  // m: where nothing of a needle is seen to be inside
-constexpr double kSeenOfWidth = 0.99;   // edges of glass seem a little narrower
 constexpr double kWidthNoise_px = 0.5, kLengthNoise = 0.0002;
 
 Vec3 rayThrough(const scene::Pinhole& camera, const Vector2d& px) {
@@ -64,8 +63,7 @@ class Axis {
       const Vec3 side = knows_.barrel_radius * (end - tip).cross(p).normalized();
       const double seen =
           (projected(knows_.camera, p + side) - projected(knows_.camera, p - side)).norm();
-      out[row++] = (width.px - kSeenOfWidth * seen) / kWidthNoise_px /
-                   std::sqrt(8.0);  // neighbours err alike
+      out[row++] = (width.px - seen) / kWidthNoise_px / std::sqrt(8.0);  // neighbours err alike
     }
     return out;
   }

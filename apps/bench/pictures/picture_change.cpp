@@ -58,12 +58,24 @@ cv::Mat1f shadeOf(const cv::Mat3f& a, const cv::Mat3f& b) {
   return shade;
 }
 
+/// What is as dark and as broad is a syringe: only a needle's shadow is dark, near its tip, and it
+/// is thin.
+void forgetBroadAndDark(cv::Mat1f* shade) {
+  constexpr float kDark = 0.4f;
+  constexpr int kBroad_px = 9;
+  cv::Mat1b broad;
+  cv::morphologyEx(*shade > kDark, broad, cv::MORPH_OPEN, cv::Mat1b::ones(kBroad_px, kBroad_px));
+  shade->setTo(0, broad);
+}
+
 }  // namespace
 
 float brightness(const cv::Vec3f& rgb) { return (rgb[0] + rgb[1] + rgb[2]) / 3; }
 
 PictureChange::PictureChange(const cv::Mat3b& before, const cv::Mat3b& now)
-    : before_(softened(before)), now_(softened(now)), shade_(shadeOf(before_, now_)) {}
+    : before_(softened(before)), now_(softened(now)), shade_(shadeOf(before_, now_)) {
+  forgetBroadAndDark(&shade_);
+}
 
 cv::Vec3f PictureChange::now(const Vector2d& p) const { return between(now_, p); }
 cv::Vec3f PictureChange::at(const Vector2d& p) const {

@@ -273,7 +273,7 @@ std::optional<ToolInPicture> toolIn(const Change& change) {
   findBarrel(change, back, &tool);
   tool.ring = ringOf(change, tool);
   tool.tint = tintOf(change, tool);
-  if (tool.needle_end - tool.tip < 5 || tool.barrel.size() < 20) return std::nullopt;
+  if (tool.needle_end - tool.tip < 5 || tool.barrel.size() < 10) return std::nullopt;
   return tool;
 }
 
