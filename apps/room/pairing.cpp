@@ -93,6 +93,9 @@ std::string brokerSettingsText(const fs::path& folder, int port) {
          "autosave_interval 60\n"
          "max_packet_size 65536\n"
          "max_connections 500\n"
+         "pid_file " +
+         at +
+         "/mosquitto.pid\n"
          "log_dest stderr\n"
          "log_type error\n"
          "log_type warning\n"

@@ -47,6 +47,7 @@ ip link set lo up
 ip link add wire type veth peer name wire-there
 ip link set wire-there netns $there
 room() { nsenter -t $there -n "$@"; }
+begin_there() { exec nsenter -t $there -n "$@"; }  # in the background: the program itself
 ip addr add 10.77.0.1/24 dev wire && ip link set wire up
 room ip link set lo up
 room ip addr add 10.77.0.2/24 dev wire-there && room ip link set wire-there up
@@ -55,8 +56,8 @@ room ip addr add 10.77.0.2/24 dev wire-there && room ip link set wire-there up
 "$tap" wire >tap.txt &
 listens=$!
 soon "the tap does not listen" grep -q listening tap.txt
-room mosquitto -c "$work/room/mosquitto.conf" >broker.log 2>&1 &
-room "$palpa" console --no-open --home "$work/watch" --port 8090 --room "$work/room" \
+begin_there mosquitto -c "$work/room/mosquitto.conf" >broker.log 2>&1 &
+begin_there "$palpa" console --no-open --home "$work/watch" --port 8090 --room "$work/room" \
   >watch.log 2>&1 &
 head -c 24 /dev/urandom | base64 >token
 chmod 600 token
