@@ -89,7 +89,7 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
 
 struct PairOptions {
   std::string station, broker, room, out;
-  int port = 8883;
+  int port = 0;
   bool forget = false;
 };
 
@@ -110,8 +110,14 @@ void forget(const PairOptions& o) {
 
 /// A room is made by its first station, at the address that it names.
 room::Room roomFor(const PairOptions& o, std::chrono::sys_seconds now) {
-  if (!o.broker.empty()) return room::Room::made(folderOf(o), o.broker, o.port, now);
-  return room::Room::in(folderOf(o));
+  constexpr int kUsualPort = 8883;
+  const fs::path folder = folderOf(o);
+  if (o.broker.empty() && o.port != 0)
+    throw UsageError("is of a new room's broker", "--port", "Give --broker HOST as well");
+  if (o.broker.empty()) return room::Room::in(folder);
+  const bool there = fs::exists(folder / "room.json");
+  const int port = o.port != 0 ? o.port : there ? room::Room::in(folder).port() : kUsualPort;
+  return room::Room::made(folder, o.broker, port, now);
 }
 
 void pair(const PairOptions& o) {
@@ -119,12 +125,13 @@ void pair(const PairOptions& o) {
   const fs::path file = o.out.empty() ? fs::path(o.station + ".palpa-pairing") : fs::path(o.out);
   if (fs::exists(file))
     throw UsageError("is there already", file.string(), "Remove it, or choose another with --out");
+  room::needStationName(o.station);
   room::Room room = roomFor(o, now);
-  writePairing(file, room.pair(o.station, now));
+  room.pair(o.station, now, [&file](const room::Pairing& made) { writePairing(file, made); });
   std::printf(
       "%s is paired: bring %s to that station, and start its console there with --room %s\n"
       "Whoever has that file can speak as this station: delete the copies on the way\n"
-      "The room's broker: mosquitto -c %s (one that runs: pkill -HUP mosquitto)\n"
+      "The room's broker: /usr/sbin/mosquitto -c %s (one that runs: pkill -HUP mosquitto)\n"
       "Watch the room: palpa console --room %s\n",
       o.station.c_str(), file.c_str(), file.filename().c_str(), room.brokerSettings().c_str(),
       room.brokerSettings().parent_path().c_str());
@@ -175,7 +182,7 @@ void addPair(CLI::App& console) {
                    "Name or address by which stations reach this computer, where the room's broker "
                    "runs; needed for the first station")
       ->type_name("HOST");
-  command->add_option("--port", o->port, "Port of the broker (default 8883)")
+  command->add_option("--port", o->port, "Port of a new room's broker (default 8883)")
       ->check(inRange(1, 65535));
   command
       ->add_option("--room", o->room,

@@ -52,7 +52,7 @@ json event(const json& entry) {
   const json name = entry.value("event", json());
   for (const Kind& one : kHeard) {
     if (name != runtime::nameOf(one.kind)) continue;
-    json kept = only(entry, {"number", "t_s", "about_s", "trial", "event", "text"});
+    json kept = only(entry, {"t_s", "about_s", "trial", "event", "text"});
     if (one.words) kept["text"] = one.words;
     kept["tone"] = one.kind == EventKind::note ? "note" : "neutral";
     return kept;

@@ -184,7 +184,9 @@ void addPages(WebServer& server, const Console& c) {
 }
 
 /// By a name that others reach it by: of a station whose address is any, one must be given.
-std::string urlForRoom(const ConsoleSettings& s, const OpenedConsole& opened) {
+std::string urlForRoom(const ConsoleSettings& s, const OpenedConsole& opened,
+                       const std::string& broker) {
+  if (isLoopback(s.address) && !isLoopback(broker)) return "";  // nobody there reaches it
   if (!isAnyAddress(s.address)) return opened.url;
   if (s.names.empty())
     throw UsageError("does not say how the room reaches this station", "--listen " + s.address,
@@ -193,19 +195,31 @@ std::string urlForRoom(const ConsoleSettings& s, const OpenedConsole& opened) {
   return "https://" + bracketed(os::usualForm(s.names.front())) + port;
 }
 
+void joinRoom(const ConsoleSettings& s, const OpenedConsole& opened, std::chrono::sys_seconds now,
+              Console* console) {
+  const std::string authority =
+      opened.authority.empty() ? "" : readWhole(opened.authority).value_or("");
+  const room::Pairing pairing = room::readPairing(s.room, now);
+  const std::string url = urlForRoom(s, opened, pairing.broker.host);
+  console->joined = std::make_unique<RoomStation>(*console, pairing, url, authority);
+}
+
 /// Watches a room, or joins one.
 void enterRoom(const ConsoleSettings& s, const OpenedConsole& opened, Console* console) {
   if (s.room.empty()) return;
   const auto now = utcSecondsOf(runtime::utcNow());
   if (fs::is_directory(s.room)) {
+    console->room = s.room;
     console->watch = std::make_unique<room::RoomWatch>(room::Room::in(s.room).watcher(now),
                                                        s.place.home / "room");
     return;
   }
-  const std::string authority =
-      opened.authority.empty() ? "" : readWhole(opened.authority).value_or("");
-  console->joined = std::make_unique<RoomStation>(*console, room::readPairing(s.room, now),
-                                                  urlForRoom(s, opened), authority);
+  try {
+    joinRoom(s, opened, now, console);
+  } catch (const Error& e) {  // a station is whole without a room
+    console->room_trouble = e.what();
+    std::fprintf(stderr, "Not in the room: %s\n", e.what());
+  }
 }
 
 void prepare(const ConsolePlace& place) {
@@ -250,9 +264,9 @@ void serveConsole(const ConsoleSettings& s,
   addRoomRoutes(server, console);
   addOwnRoutes(server, console);
   checkHealth(console);
-  const Serving serving(server);
   const OpenedConsole opened = encryption.opened(port);
   enterRoom(s, opened, &console);
+  const Serving serving(server);
   only.announce(opened.url);
   ready(opened);
   while (!interrupt.noted()) {

@@ -1,8 +1,10 @@
 #include <string>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/console/routes.h"
-#include "apps/os/tls/openssl.h"
+#include "apps/os/file_access.h"
+#include "apps/room/pairing.h"
 
 /// The room: the other stations as the one console that watches them sees them, and this station's
 /// picture for it.
@@ -35,10 +37,13 @@ json described(const Console& c) {
     all["joined"] = described(c.joined->line());
     all["joined"]["station"] = c.joined->name();
   }
+  if (!c.room_trouble.empty())
+    all["joined"] = {{"station", ""}, {"stands", false}, {"trouble", c.room_trouble}};
   if (!c.watch) return all;
   json stations = json::array();
+  const room::Room paired = room::Room::in(c.room);
   for (const auto& [name, station] : c.watch->stations())
-    stations.push_back(described(name, station));
+    if (paired.stations().contains(name)) stations.push_back(described(name, station));
   all["watch"] = {{"broker", described(c.watch->broker())},
                   {"trouble", c.watch->trouble()},
                   {"stations", stations}};
@@ -52,30 +57,28 @@ RoomWatch& watchOf(const Console& c) {
   return *c.watch;
 }
 
-/// Only those whom the station has named are believed; OpenSSL's, for a client that takes it over.
-X509_STORE* believing(const std::string& authority) {
-  X509_STORE* const store = X509_STORE_new();
-  const os::openssl::Bio text = os::openssl::reader(authority);
-  while (const auto one = os::openssl::nextCertificate(text.get()))
-    X509_STORE_add_cert(store, one.get());
-  return store;
-}
-
-/// From the station itself. Empty: it has none to give.
+/// From the station itself, over TLS that only the authority that it named vouches for (of a
+/// centre's own certificate: those that this computer believes). Empty: it has none to give.
 std::string pictureOf(const room::StationFacts& station) {
-  const std::string origin = station.url.substr(0, station.url.find_last_not_of('/') + 1);
-  httplib::Client client(origin);
-  if (!station.authority.empty()) client.set_ca_cert_store(believing(station.authority));
+  if (station.url.empty()) return "";
+  const os::TemporaryFolder believed("palpa-room-");
+  httplib::Client client(station.url.substr(0, station.url.size() - 1));
+  if (!station.authority.empty()) {
+    const auto file = believed.path() / "authority.pem";
+    writeWhole(file, station.authority, Lasts::no);
+    client.set_ca_cert_path(file.string());
+  }
   client.enable_server_certificate_verification(true);
   client.set_connection_timeout(kPictureComes);
   client.set_read_timeout(kPictureComes);
   std::string picture;
+  const auto until = runtime::ServingClock::now() + 2 * kPictureComes;
   const auto result = client.Get(
       kRoomPicture, {{kKeyHeader, station.picture_key}},
       [](const httplib::Response& answer) { return answer.status == 200; },
-      [&picture](const char* bytes, std::size_t count) {
+      [&](const char* bytes, std::size_t count) {
         picture.append(bytes, count);
-        return picture.size() <= kLargestPicture;
+        return picture.size() <= kLargestPicture && runtime::ServingClock::now() < until;
       });
   return result && picture.starts_with("\xff\xd8") ? picture : "";
 }

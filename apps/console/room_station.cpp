@@ -2,6 +2,9 @@
 
 #include <openssl/crypto.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/utc.h"
@@ -18,6 +21,7 @@ using nlohmann::json;
 using room::Answer;
 using room::Ask;
 using room::Happening;
+using runtime::EventKind;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kRound{200};
@@ -28,26 +32,32 @@ std::string textIn(const json& entry, const char* field) {
   return found.is_string() ? found.get<std::string>() : "";
 }
 
-/// An event of a session's log as the room hears it: a note's words stay here.
-Happening happeningOf(const json& entry, const std::string& session, const std::string& record,
-                      std::int64_t after) {
+/// Words that the program wrote itself, of an event that is no trial's end: reasons and notes are
+/// somebody's own, and stay here.
+std::string wordsOf(const std::string& event, const std::string& text) {
   constexpr std::size_t kLongest = 400;
+  if (event == nameOf(EventKind::note)) return "Somebody noted something";
+  for (int kind = 0; kind <= static_cast<int>(EventKind::picture); ++kind)
+    if (event == nameOf(static_cast<EventKind>(kind))) return text.substr(0, kLongest);
+  return "The trial ended: " + event;
+}
+
+/// An event of a session's log as the room hears it.
+Happening happeningOf(const json& entry, const std::string& session, const std::string& record,
+                      std::int64_t number) {
   const std::string event = textIn(entry, "event");
-  const bool note = event == nameOf(runtime::EventKind::note);
   return {.session = session,
           .record = record,
-          .number = entry.at("number"),
-          .after = after,
+          .number = number,
           .t_s = std::max(0.0, entry.value("t_s", 0.0)),
           .trial = std::max(0, entry.value("trial", 0)),
           .event = event,
-          .text = note ? "Somebody noted something" : textIn(entry, "text").substr(0, kLongest),
+          .text = wordsOf(event, textIn(entry, "text")),
           .tone = textIn(entry, "tone")};
 }
 
 bool isEvent(const json& entry) {
-  return entry.is_object() && entry.value("kind", json()) == "event" &&
-         entry.value("number", json()).is_number_integer();
+  return entry.is_object() && entry.value("kind", json()) == "event";
 }
 
 /// What the newest words on a session's screen say of it.
@@ -67,14 +77,12 @@ std::vector<Happening> happeningsIn(const std::filesystem::path& record, const s
                                     bool blind, const live::ToneOf& tone) {
   const record::SessionReader reader(record);
   std::vector<Happening> all;
-  std::int64_t number = 0, after = -1;
+  std::int64_t next = 0;
   for (const runtime::Event& event : reader.events()) {
-    std::string told = live::eventEntry(event, number++, tone);
+    std::string told = live::eventEntry(event, tone);
     if (blind && !told.empty()) told = blinded(told);
-    const json entry = parsedOrDiscarded(told);
-    if (!isEvent(entry)) continue;
-    all.push_back(happeningOf(entry, session, reader.info().uuid, after));
-    after = all.back().number;
+    if (const json entry = parsedOrDiscarded(told); isEvent(entry))
+      all.push_back(happeningOf(entry, session, reader.info().uuid, next++));
   }
   return all;
 }
@@ -105,6 +113,7 @@ void RoomStation::run() {
   os::giveWay();
   while (!ending_.load()) {
     try {
+      beginAgain();
       follow();
       tellOldest();
     } catch (const std::exception&) {  // a full disk, say: the next time
@@ -169,53 +178,64 @@ bool RoomStation::tell(const json& entry) {
   if (kind == "earlier") lost_ = true;
   if (kind == "hello") {
     record_ = textIn(entry, "uuid");
-    last_ = -1;
+    next_ = 0;
   }
   if (lost_ || record_.empty() || !isEvent(entry)) return true;
-  const Happening happening = happeningOf(entry, on_, record_, last_);
-  if (!line_.tell(happening)) return false;
-  last_ = happening.number;
+  if (!line_.tell(happeningOf(entry, on_, record_, next_))) return false;
+  ++next_;
   return true;
 }
 
-/// What the oldest session that is over has to tell; true: there is one.
+void RoomStation::readOf(const std::string& id) {
+  recorded_.clear();
+  recorded_from_ = 0;
+  const bool blind = console_.sessions.isBlind(id);
+  for (const auto& record : console_.sessions.records(id))
+    for (Happening& one : happeningsIn(record, id, blind, console_.tone))
+      recorded_.push_back(std::move(one));
+  over_ = id;
+}
+
+/// The oldest session that is over and not told; one a call, so that a running one is not kept
+/// waiting. True: there was one to look at.
 bool RoomStation::readNext() {
-  for (const std::string& id : console_.sessions.untold()) {
-    if (unreadable_.contains(id)) continue;
-    const auto began = utcSecondsOf(textIn(console_.sessions.one(id), "started_utc"));
-    if (!line_.wants(id).value_or(false) || began < utcSecondsOf(pairing_.made_utc)) {
-      console_.sessions.markTold(id);
-      continue;
-    }
-    try {
-      recorded_.clear();
-      recorded_from_ = 0;
-      for (const auto& record : console_.sessions.records(id))
-        for (Happening& one :
-             happeningsIn(record, id, console_.sessions.isBlind(id), console_.tone))
-          recorded_.push_back(std::move(one));
-      over_ = id;
-      return true;
-    } catch (const Error&) {  // its own page says what is wrong with it
-      unreadable_.insert(id);
-    }
-  }
-  return false;
+  constexpr std::chrono::hours kClocksDiffer{1};
+  const std::string id = console_.sessions.firstUntold(done_);
+  if (id.empty()) return false;
+  done_.insert(id);  // whatever comes of it
+  const auto began = utcSecondsOf(console_.sessions.startOf(id));
+  const bool before = began < utcSecondsOf(pairing_.made_utc) - kClocksDiffer;
+  if (before || !line_.wants(id).value_or(true))
+    console_.sessions.markTold(id);
+  else
+    readOf(id);
+  return true;
 }
 
 void RoomStation::tellOldest() {
   if (over_.empty()) {
     const auto now = runtime::ServingClock::now();
     if (now < next_look_ || !line_.wants("").has_value()) return;
-    next_look_ = now + kBetweenRecords;
-    if (!readNext()) return;
+    if (!readNext()) next_look_ = now + kBetweenRecords;
+    return;
   }
   while (recorded_from_ < recorded_.size() && line_.tell(recorded_[recorded_from_]))
     ++recorded_from_;
-  for (const Happening& one : recorded_)
-    if (line_.heardOf(one.session, one.record) < one.number) return;
-  console_.sessions.markTold(over_);
-  over_.clear();
+  const bool heard = std::all_of(recorded_.begin(), recorded_.end(), [this](const Happening& one) {
+    return line_.heardOf(one.session, one.record) >= one.number;
+  });
+  const bool wanted = line_.wants(over_).value_or(true) && console_.sessions.has(over_);
+  if (!heard && wanted) return;
+  const std::string id = std::exchange(over_, "");
+  if (heard) console_.sessions.markTold(id);
+}
+
+/// The watcher has less than he had: what is not told whole is told from its beginning.
+void RoomStation::beginAgain() {
+  if (line_.beginnings() == beginnings_) return;
+  beginnings_ = line_.beginnings();
+  events_from_ = recorded_from_ = 0;
+  record_.clear();
 }
 
 /// Nothing here begins force: a session that was prepared waits for a key or a button here.
@@ -229,9 +249,8 @@ Answer RoomStation::obey(const Ask& ask) {
     beginSession(console_, wish);
     return {ask.id, true, ""};
   }
-  const std::string id = console_.sessions.running();
-  const auto link = id.empty() ? nullptr : console_.sessions.linkForStop(id);
-  if (!link) return {ask.id, false, "no session is running there"};
+  const auto link = console_.sessions.linkForStop(ask.session);
+  if (!link) return {ask.id, false, "that session is not running there (any more)"};
   if (ask.what == Ask::What::stop) {
     const bool stopped = link->stop() == SessionLink::Stopped::yes;
     return {ask.id, stopped,

@@ -36,6 +36,8 @@ class RoomStation {
   bool tell(const nlohmann::json& entry);
   void tellOldest();
   bool readNext();
+  void readOf(const std::string& id);
+  void beginAgain();
   room::Answer obey(const room::Ask& ask);
 
   Console& console_;
@@ -48,14 +50,15 @@ class RoomStation {
   std::shared_ptr<SessionLink> link_;
   std::size_t state_from_ = 0, events_from_ = 0;
   std::string record_;
-  std::int64_t last_ = -1;
-  bool lost_ = false;  ///< some of its entries are no longer kept: its record tells them
+  std::int64_t next_ = 0;  ///< number of its next event
+  bool lost_ = false;      ///< some of its entries are no longer kept: its record tells them
 
   // Of those that are over: what the oldest of them has to tell.
   std::string over_;
   std::vector<room::Happening> recorded_;
   std::size_t recorded_from_ = 0;
-  std::set<std::string> unreadable_;
+  std::set<std::string> done_;  ///< told whole, or not to be read
+  int beginnings_ = 0;          ///< of the line, as last seen
   runtime::ServingClock::time_point next_look_{};
 
   room::StationLine line_;

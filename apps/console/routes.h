@@ -36,6 +36,8 @@ struct Console {
     std::string checked_utc, job;
   } health;
   Jobs jobs;                               ///< its thread uses what is above until it has ended
+  std::filesystem::path room;              ///< folder of the room that it watches
+  std::string room_trouble;                ///< why it is in none, although it should be
   std::unique_ptr<room::RoomWatch> watch;  ///< of a room, or null
   std::unique_ptr<RoomStation> joined;     ///< to a room, or null
 };

@@ -105,8 +105,7 @@ std::string Sessions::socketOf(const std::string& id) const {
 }
 
 fs::path Sessions::folder(const std::string& id) const {
-  std::error_code none;
-  if (!isId(id) || !fs::is_regular_file(place_.sessions() / id / kFacts, none))
+  if (!has(id))
     throw UsageError("is not here", "session " + id.substr(0, 64), "Choose one from the list");
   return place_.sessions() / id;
 }
@@ -292,20 +291,32 @@ std::string Sessions::running() {
   return "";
 }
 
-std::vector<std::string> Sessions::untold() {
-  std::vector<std::string> ids;
+std::string Sessions::firstUntold(const std::set<std::string>& known) {
   const std::string on = running();
   for (std::string& id : idsIn(place_.sessions()))
-    if (id != on && !factsOf(place_.sessions() / id).value(kTold, false))
-      ids.push_back(std::move(id));
-  return ids;
+    if (id != on && !known.contains(id) && !factsOf(place_.sessions() / id).value(kTold, false))
+      return std::move(id);
+  return "";
 }
 
+/// Facts that cannot be read are left as they are: they say who was trained, and whether blind.
 void Sessions::markTold(const std::string& id) {
   const std::lock_guard lock(mutex_);
   json facts = factsOf(folder(id));
+  if (facts.empty()) return;
   facts[kTold] = true;
-  writeWhole(folder(id) / kFacts, facts.dump(1) + "\n", Lasts::no);
+  writeWhole(folder(id) / kFacts, facts.dump(1) + "\n");
+}
+
+bool Sessions::has(const std::string& id) const {
+  std::error_code none;
+  return isId(id) && fs::is_regular_file(place_.sessions() / id / kFacts, none);
+}
+
+std::string Sessions::startOf(const std::string& id) const {
+  std::string utc = textOf(factsOf(folder(id)), "started_utc");
+  if (utc.empty()) throw Error("does not say when it began", "session " + id, "Look at its folder");
+  return utc;
 }
 
 std::vector<fs::path> Sessions::records(const std::string& id) const {

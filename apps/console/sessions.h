@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -61,10 +62,12 @@ class Sessions {
   std::shared_ptr<SessionLink> linkForStop(const std::string& id) const;
   std::string running();  ///< id; empty: none runs
   bool oneRuns() { return !running().empty(); }
-  /// Of all that are over, the oldest first, which the room has not heard whole; and that it has
-  /// now.
-  std::vector<std::string> untold();
+  /// The oldest of all that are over and of which the room has not heard all, but for those that
+  /// are known; empty: none. And that it has heard all of one.
+  std::string firstUntold(const std::set<std::string>& known);
   void markTold(const std::string& id);
+  bool has(const std::string& id) const;
+  std::string startOf(const std::string& id) const;  ///< UTC; throws Error where that is not known
   /// The records of one that is over, in their order; of a study's blocks one each.
   std::vector<std::filesystem::path> records(const std::string& id) const;
   /// Looks whether the running ones have ended; called now and then.

@@ -64,7 +64,9 @@ json me(const Console& c, bool entered) {
   all["open_to_others"] = c.openToOthers();
   all["stations"] = json::array();
   for (const StationKind kind : kStationKinds) all["stations"].push_back(described(c, kind));
-  all["room"] = {{"watches", c.watch != nullptr}, {"station", c.joined ? c.joined->name() : ""}};
+  all["room"] = {{"watches", c.watch != nullptr},
+                 {"station", c.joined ? c.joined->name() : ""},
+                 {"trouble", c.room_trouble}};
   return all;
 }
 

@@ -75,8 +75,9 @@ Finding askPedal(const station::Station& station) {
   if (station.stop_pedal.empty())
     return {kPedal, State::absent, "none: the emergency stop is the space bar and the console"};
   try {
-    const os::Pedal pedal(station.stop_pedal);
-    return {kPedal, State::well, "is there; press it in a session once, to be sure of it"};
+    const os::Pedal pedal(station.stop_pedal, os::Pedal::Use::look);
+    return {kPedal, State::well,
+            "is there, and has keys; press it in a session once, to be sure of it"};
   } catch (const Error& e) {
     return troubled(kPedal, State::ill, e.what());
   }

@@ -99,10 +99,9 @@ void LiveSink::tick(const haptics::FlightRecord& record) {
   if (record.tool == 0) last_ = record;
 }
 
-std::string eventEntry(const runtime::Event& event, std::int64_t number, const ToneOf& tone) {
+std::string eventEntry(const runtime::Event& event, const ToneOf& tone) {
   if (event.is(runtime::EventKind::picture) || event.is(runtime::EventKind::trial_case)) return "";
   return entryOf({{"kind", "event"},
-                  {"number", number},
                   {"t_s", secondsOf(event.t_ns)},
                   {"about_s", secondsOf(event.about_ns())},
                   {"trial", event.trial},
@@ -114,8 +113,7 @@ std::string eventEntry(const runtime::Event& event, std::int64_t number, const T
 
 void LiveSink::event(const runtime::Event& event) {
   evidence_.event(event);
-  if (std::string entry = eventEntry(event, events_++, tone_); !entry.empty())
-    log_.add(std::move(entry));
+  if (std::string entry = eventEntry(event, tone_); !entry.empty()) log_.add(std::move(entry));
 }
 
 void LiveSink::endTrial(const runtime::TrialEnd& end) {

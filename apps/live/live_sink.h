@@ -93,15 +93,14 @@ class LiveSink final : public runtime::FlightSink {
   NearMiss near_;
   ToneOf tone_;
   ForceCurve curve_;
-  std::int64_t events_ = 0;  ///< that went into the evidence
   std::optional<haptics::FlightRecord> last_;
   std::string near_words_;  ///< the last that was told
 };
 
-/// What is told of an event, as an entry: {"kind": "event", ...}; `number`: of it among all that
-/// the record has. Empty: nothing. Whoever looks on sees the moment of a picture itself; what a
-/// trial is about is written for programs, and is the answer.
-std::string eventEntry(const runtime::Event& event, std::int64_t number, const ToneOf& tone);
+/// What is told of an event, as an entry: {"kind": "event", ...}. Empty: nothing. Whoever looks on
+/// sees the moment of a picture itself; what a trial is about is written for programs, and is the
+/// answer.
+std::string eventEntry(const runtime::Event& event, const ToneOf& tone);
 
 /// An entry of the log as it is told; what is no UTF-8 is replaced, so that it can be read.
 inline std::string entryOf(const nlohmann::json& entry) {

@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <linux/input.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 
@@ -13,16 +15,39 @@
 
 namespace palpa::os {
 
-Pedal::Pedal(const std::string& device)
+namespace {
+
+/// The kernel's device of something with keys or buttons.
+bool hasKeys(int device) {
+  std::array<unsigned char, KEY_MAX / 8 + 1> keys{};
+  return ::ioctl(device, EVIOCGBIT(EV_KEY, keys.size()), keys.data()) >= 0 &&
+         std::any_of(keys.begin(), keys.end(), [](unsigned char some) { return some != 0; });
+}
+
+bool isPipe(int device) {
+  struct stat facts {};
+  return ::fstat(device, &facts) == 0 && S_ISFIFO(facts.st_mode);
+}
+
+}  // namespace
+
+Pedal::Pedal(const std::string& device, Use use)
     : descriptor_(::open(device.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+  const std::string what = "the stop pedal " + device;
   if (descriptor_ < 0) {
     const int why = errno;
-    throw Error(why == ENOENT ? "is not there" : "cannot be opened: " + fileTrouble(why).why,
-                "the stop pedal " + device,
+    throw Error(why == ENOENT ? "is not there" : "cannot be opened: " + fileTrouble(why).why, what,
                 why == EACCES ? "Let this user read it: sudo adduser $USER input, and log in again"
                               : "Plug it in, or correct stop_pedal in the station's file");
   }
-  ::ioctl(descriptor_, EVIOCGRAB, 1);  // refused: somebody else hears it, too
+  if (isPipe(descriptor_)) return;
+  const bool keys = hasKeys(descriptor_);
+  if (keys && (use == Use::look || ::ioctl(descriptor_, EVIOCGRAB, 1) == 0)) return;
+  letGo();
+  throw Error(keys ? "is taken by another program, so that it is not heard here" : "has no keys",
+              what,
+              keys ? "End that program (another session, or one that remaps keys)"
+                   : "Name the pedal's own device, /dev/input/by-id/...-event-kbd");
 }
 
 Pedal::~Pedal() { letGo(); }
@@ -45,7 +70,8 @@ bool Pedal::pressed() {
       return true;
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(bytes) / sizeof(input_event); ++i)
-      any = any || (events[i].type == EV_KEY && events[i].value == kDown);
+      any = any || (events[i].type == EV_KEY && events[i].value == kDown) ||
+            (events[i].type == EV_SYN && events[i].code == SYN_DROPPED);  // one may be among them
   }
   return any;
 }

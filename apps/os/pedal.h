@@ -9,8 +9,13 @@ namespace palpa::os {
 /// that it types nothing into other programs. Nothing here waits.
 class Pedal {
  public:
-  /// Throws Error where the device is not there or this user may not read it.
-  explicit Pedal(const std::string& device);
+  enum class Use {
+    alone,  ///< nobody else hears it meanwhile
+    look    ///< whether it can be heard at all; a session that runs may have it
+  };
+  /// Throws Error where the device is not there, has no keys, is another program's, or may not be
+  /// read by this user. A named pipe is taken as well, to try it.
+  explicit Pedal(const std::string& device, Use use = Use::alone);
   ~Pedal();
   Pedal(const Pedal&) = delete;
   Pedal& operator=(const Pedal&) = delete;

@@ -70,6 +70,17 @@ using Client = std::unique_ptr<mosquitto, Freed>;
 
 }  // namespace
 
+/// What is to be said, until when.
+struct BrokerLine::Waiting {
+  explicit Waiting(Said what)
+      : said(std::move(what)),
+        until(said.good_for ? runtime::ServingClock::now() + *said.good_for
+                            : runtime::ServingClock::time_point::max()) {}
+  bool isOver() const { return runtime::ServingClock::now() > until; }
+  Said said;
+  runtime::ServingClock::time_point until;
+};
+
 struct BrokerLine::Shared {
   explicit Shared(Wish wanted)
       : wish(std::move(wanted)),
@@ -80,12 +91,12 @@ struct BrokerLine::Shared {
 
   mutable std::mutex mutex;
   std::condition_variable changed;
-  std::deque<Said> waiting;
+  std::deque<Waiting> waiting;
   State state;
   bool ending = false, ended = false;
 
   // Of the line's thread alone.
-  std::deque<std::pair<int, Said>> under_way;  ///< with the library's numbers
+  std::deque<std::pair<int, Waiting>> under_way;  ///< with the library's numbers
   bool open = false;
   std::string log, refused;
 
@@ -99,24 +110,32 @@ struct BrokerLine::Shared {
   Client connecting();
   int speak(mosquitto* client);
   void send(mosquitto* client);
-  bool say(mosquitto* client, Said said);
+  bool say(mosquitto* client, Waiting one);
   void settle(bool stands, const std::string& trouble);
   bool done();
   void takeBack();
 
   static Shared& of(void* self) { return *static_cast<Shared*>(self); }
   void hello(mosquitto* client, int reason);
+  void goodbye(int reason);
   void hear(const mosquitto_message& message);
   void taken(int number, int reason);
 };
 
 /// Of what waits the newest retained words of a topic count.
-static void keepInOrder(std::deque<Said>* waiting, Said said) {
-  if (said.retained)
-    std::erase_if(*waiting,
-                  [&](const Said& one) { return one.retained && one.topic == said.topic; });
+template <class Queue>
+static void forgetOlder(Queue* waiting, const Said& newer) {
+  if (!newer.retained) return;
+  std::erase_if(*waiting, [&](const auto& one) {
+    return one.said.retained && one.said.topic == newer.topic;
+  });
+}
+
+template <class Queue, class One>
+static void keepInOrder(Queue* waiting, One one) {
+  forgetOlder(waiting, one.said);
   if (waiting->size() == BrokerLine::kMostWaiting) waiting->pop_front();
-  waiting->push_back(std::move(said));
+  waiting->push_back(std::move(one));
 }
 
 void BrokerLine::Shared::settle(bool stands, const std::string& trouble) {
@@ -136,7 +155,20 @@ void BrokerLine::Shared::hello(mosquitto* client, int reason) {
     mosquitto_subscribe_v5(client, nullptr, topic.c_str(), kQos, 0, nullptr);
   const std::lock_guard lock(telling);
   if (deaf || !wish.greets) return;
-  for (Said& said : wish.greets()) say(client, std::move(said));
+  for (Said& said : wish.greets()) {
+    {
+      const std::lock_guard also(mutex);
+      forgetOlder(&waiting, said);
+    }
+    say(client, Waiting(std::move(said)));
+  }
+}
+
+void BrokerLine::Shared::goodbye(int reason) {
+  if (reason == MQTT_RC_SESSION_TAKEN_OVER)
+    refused =
+        "has another line by the same name: another console uses the same file of the room. "
+        "Close one of them, or pair this station again";
 }
 
 void BrokerLine::Shared::hear(const mosquitto_message& message) {
@@ -153,8 +185,9 @@ void BrokerLine::Shared::taken(int number, int reason) {
                                   [number](const auto& one) { return one.first == number; });
   if (found == under_way.end()) return;
   if (reason >= kRefused)
-    settle(true, "The room's broker refused what was said about " + found->second.topic + ": " +
-                     mosquitto_reason_string(reason) + ". Pair this station again");
+    refused = "refused what was said about " + found->second.said.topic + " (" +
+              mosquitto_reason_string(reason) +
+              "): let it read its files again (HUP), or pair this station again";
   under_way.erase(found);
 }
 
@@ -174,6 +207,10 @@ Client BrokerLine::Shared::connecting() {
       one, [](mosquitto* c, void* self, int reason, int, const mosquitto_property*) {
         of(self).hello(c, reason);
       });
+  mosquitto_disconnect_v5_callback_set(
+      one, [](mosquitto*, void* self, int reason, const mosquitto_property*) {
+        of(self).goodbye(reason);
+      });
   mosquitto_publish_v5_callback_set(
       one, [](mosquitto*, void* self, int number, int reason, const mosquitto_property*) {
         of(self).taken(number, reason);
@@ -188,29 +225,41 @@ Client BrokerLine::Shared::connecting() {
   return client;
 }
 
-bool BrokerLine::Shared::say(mosquitto* client, Said said) {
+/// False: it is to be said later. What can never be said is forgotten, with a word.
+bool BrokerLine::Shared::say(mosquitto* client, Waiting one) {
+  const Said& said = one.said;
+  mosquitto_property* more = nullptr;
+  if (said.good_for)
+    mosquitto_property_add_int32(&more, MQTT_PROP_MESSAGE_EXPIRY_INTERVAL,
+                                 static_cast<std::uint32_t>(said.good_for->count()));
   int number = 0;
   const int result =
       mosquitto_publish_v5(client, &number, said.topic.c_str(), static_cast<int>(said.words.size()),
-                           said.words.data(), kQos, said.retained, nullptr);
-  if (result == MOSQ_ERR_SUCCESS) under_way.emplace_back(number, std::move(said));
-  return result == MOSQ_ERR_SUCCESS;
+                           said.words.data(), kQos, said.retained, more);
+  mosquitto_property_free_all(&more);
+  const bool never = result == MOSQ_ERR_OVERSIZE_PACKET || result == MOSQ_ERR_PAYLOAD_SIZE ||
+                     result == MOSQ_ERR_INVAL || result == MOSQ_ERR_MALFORMED_UTF8;
+  if (never)
+    settle(true, "What is to be said about " + said.topic + " is too much for the room's broker (" +
+                     mosquitto_strerror(result) + ")");
+  if (result == MOSQ_ERR_SUCCESS) under_way.emplace_back(number, std::move(one));
+  return never || result == MOSQ_ERR_SUCCESS;
 }
 
 void BrokerLine::Shared::send(mosquitto* client) {
   while (open && under_way.size() < kUnderWay) {
-    Said next;
+    std::optional<Waiting> next;
     {
       const std::lock_guard lock(mutex);
+      while (!waiting.empty() && waiting.front().isOver()) waiting.pop_front();
       if (waiting.empty()) return;
-      next = waiting.front();
-    }
-    if (!say(client, next)) return;
-    const std::lock_guard lock(mutex);
-    // Unless newer words have taken its place.
-    if (!waiting.empty() && waiting.front().topic == next.topic &&
-        waiting.front().words == next.words)
+      next = std::move(waiting.front());
       waiting.pop_front();
+    }
+    if (say(client, *next)) continue;
+    const std::lock_guard lock(mutex);
+    waiting.push_front(std::move(*next));
+    return;
   }
 }
 
@@ -223,7 +272,7 @@ bool BrokerLine::Shared::done() {
 /// Until the line is lost, or we go. The library's word why.
 int BrokerLine::Shared::speak(mosquitto* client) {
   int result = MOSQ_ERR_SUCCESS;
-  while (result == MOSQ_ERR_SUCCESS) {
+  while (result == MOSQ_ERR_SUCCESS && refused.empty()) {
     send(client);
     if (done()) {
       mosquitto_disconnect_v5(client, 0, nullptr);
@@ -238,9 +287,9 @@ int BrokerLine::Shared::speak(mosquitto* client) {
 /// What the broker has not taken is said again, before the rest.
 void BrokerLine::Shared::takeBack() {
   const std::lock_guard lock(mutex);
-  std::deque<Said> again;
-  for (auto& [number, said] : under_way) keepInOrder(&again, std::move(said));
-  for (Said& said : waiting) keepInOrder(&again, std::move(said));
+  std::deque<Waiting> again;
+  for (auto& [number, one] : under_way) keepInOrder(&again, std::move(one));
+  for (Waiting& one : waiting) keepInOrder(&again, std::move(one));
   waiting = std::move(again);
   under_way.clear();
 }
@@ -256,7 +305,7 @@ void BrokerLine::Shared::run() {
     int result = mosquitto_connect_bind_v5(client.get(), wish.access.host.c_str(), wish.access.port,
                                            kKeepAlive, nullptr, nullptr);
     if (result == MOSQ_ERR_SUCCESS) result = speak(client.get());
-    rest = open ? kFirstRest : std::min(2 * rest, kLongestRest);
+    rest = open && refused.empty() ? kFirstRest : std::min(2 * rest, kLongestRest);
     takeBack();
     std::unique_lock lock(mutex);
     if (ending) break;
@@ -298,7 +347,7 @@ BrokerLine::~BrokerLine() {
 
 void BrokerLine::say(Said said) {
   const std::lock_guard lock(shared_->mutex);
-  keepInOrder(&shared_->waiting, std::move(said));
+  keepInOrder(&shared_->waiting, Waiting(std::move(said)));
 }
 
 BrokerLine::State BrokerLine::state() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,14 @@ struct BrokerAccess {
 struct Said {
   std::string topic, words;
   bool retained = false;  ///< the broker tells the newest to whoever comes later
+  /// Words that mean something now only are not said later.
+  std::optional<std::chrono::seconds> good_for = std::nullopt;
 };
 
 /// A line to an MQTT 5 broker over TLS, at QoS 1, with a thread of its own that gives way to all
-/// others. A line that is lost is begun anew, after a second, then later and later, at most 15 s;
-/// what was not taken until then is said again, in its order. Any thread.
+/// others. A line that is lost, or on which the broker refuses something, is begun anew, after a
+/// second, then later and later, at most 15 s; what was not taken until then is said again, in its
+/// order. Any thread.
 class BrokerLine {
  public:
   struct Wish {
@@ -56,6 +60,7 @@ class BrokerLine {
   State state() const;
 
  private:
+  struct Waiting;
   struct Shared;
   std::shared_ptr<Shared> shared_;  ///< with the thread: what hangs keeps what it uses
 };

@@ -1,7 +1,7 @@
 #include "apps/room/messages.h"
 
 #include <algorithm>
-#include <array>
+#include <regex>
 
 #include "anatomy/base/enum_names.h"
 #include "anatomy/base/error.h"
@@ -13,8 +13,10 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kLongestMessage = 32 << 10, kLongestText = 2000, kLongestPem = 16 << 10,
-                      kLongestName = 32;
+                      kLongestName = 32, kLongestUrl = 300;
 constexpr std::string_view kRoot = "palpa/";
+constexpr std::string_view kStates[] = {"free",   "starting", "checking", "waiting", "running",
+                                        "paused", "ended",    "finished", "gone"};
 constexpr double kLongestSession = 1e7;  // s
 
 const EnumNames<Topic>& topicNames() {
@@ -25,6 +27,18 @@ const EnumNames<Topic>& topicNames() {
 const EnumNames<Ask::What>& askNames() {
   static const EnumNames<Ask::What> kAskNames{"prepare", "pause", "stop", "leave"};
   return kAskNames;
+}
+
+bool isHex(std::string_view text, std::size_t digits) {
+  return text.size() == digits &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+/// "https://HOST[:PORT]/", or http of this computer alone: what a console fetches pictures from.
+bool isStationUrl(const std::string& url) {
+  static const std::regex kUrl(R"(https://([A-Za-z0-9.-]+|\[[0-9A-Fa-f:.]+\])(:[0-9]{1,5})?/)"
+                               R"(|http://(127\.0\.0\.1|localhost)(:[0-9]{1,5})?/)");
+  return url.empty() || (url.size() <= kLongestUrl && std::regex_match(url, kUrl));
 }
 
 bool isPlain(std::string_view text, std::size_t longest) {
@@ -100,8 +114,11 @@ json toJson(const StationFacts& f) {
 
 StationFacts stationFactsIn(std::string_view text) {
   const Message m(text);
-  return {m.text("url"), m.text("authority", kLongestPem), m.text("picture_key"),
-          m.text("version")};
+  StationFacts facts{m.text("url"), m.text("authority", kLongestPem), m.text("picture_key"),
+                     m.text("version")};
+  if (!isStationUrl(facts.url)) m.file().refuse("url", "is no address of a console");
+  if (!isHex(facts.picture_key, 32)) m.file().refuse("picture_key", "is no key");
+  return facts;
 }
 
 json toJson(const StationState& s) {
@@ -127,7 +144,9 @@ StationState stationStateIn(std::string_view text) {
   s.present = m.file().flag("present");
   s.utc = m.text("utc");
   s.session = m.id("session", true);
-  s.state = m.id("state");
+  s.state = m.text("state");
+  if (std::find(std::begin(kStates), std::end(kStates), s.state) == std::end(kStates))
+    m.file().refuse("state", "is not known here");
   s.task = m.text("task");
   s.trainee = m.text("trainee");
   s.alarm = m.text("alarm");
@@ -147,9 +166,8 @@ StationState goneWithoutAWord() {
 }
 
 json toJson(const Happening& h) {
-  return {{"session", h.session}, {"record", h.record}, {"number", h.number},
-          {"after", h.after},     {"t_s", h.t_s},       {"trial", h.trial},
-          {"event", h.event},     {"text", h.text},     {"tone", h.tone}};
+  return {{"session", h.session}, {"record", h.record}, {"number", h.number}, {"t_s", h.t_s},
+          {"trial", h.trial},     {"event", h.event},   {"text", h.text},     {"tone", h.tone}};
 }
 
 Happening happeningIn(std::string_view text) {
@@ -158,13 +176,11 @@ Happening happeningIn(std::string_view text) {
   h.session = m.id("session");
   h.record = m.id("record");
   h.number = countIn(m.file(), "number", 0);
-  h.after = countIn(m.file(), "after", -1);
-  if (h.after >= h.number) m.file().refuse("after", "is not before number");
   h.t_s = m.file().number("t_s", 0, kLongestSession);
   h.trial = static_cast<int>(std::min<std::int64_t>(countIn(m.file(), "trial", 0), INT32_MAX));
-  h.event = m.id("event");
+  h.event = m.text("event", kLongestName);
   h.text = m.text("text");
-  h.tone = m.id("tone");
+  h.tone = m.text("tone", kLongestName);
   return h;
 }
 
@@ -196,11 +212,14 @@ Heard heardIn(std::string_view text) {
 
 const std::string& nameOf(Ask::What what) { return askNames().of(what); }
 
-json toJson(const Ask& a) { return {{"id", a.id}, {"ask", nameOf(a.what)}, {"wish", a.wish}}; }
+json toJson(const Ask& a) {
+  return {{"id", a.id}, {"session", a.session}, {"ask", nameOf(a.what)}, {"wish", a.wish}};
+}
 
 Ask askIn(std::string_view text) {
   const Message m(text);
-  return {m.id("id"), askNames().in(m.file(), "ask"), m.file().json().value("wish", json())};
+  return {m.id("id"), m.id("session", true), askNames().in(m.file(), "ask"),
+          m.file().json().value("wish", json())};
 }
 
 json toJson(const Answer& a) { return {{"id", a.id}, {"done", a.done}, {"words", a.words}}; }

@@ -34,9 +34,12 @@ std::optional<Addressed> addressedIn(std::string_view topic);
 
 /// How a station is reached.
 struct StationFacts {
-  std::string url;        ///< of its console: "https://192.168.1.20:8443/"
+  /// of its console: "https://HOST:PORT/", or http of this computer alone; empty: nobody else
+  /// reaches it
+  std::string url;
   std::string authority;  ///< PEM: who vouches for that console's certificate
-  /// whoever says it gets the newest picture; new with every start of the station's console
+  /// 32 hexadecimal digits: whoever says them gets the newest picture; others with every start of
+  /// the station's console
   std::string picture_key;
   std::string version;  ///< of Palpa there
 };
@@ -64,11 +67,10 @@ StationState goneWithoutAWord();
 
 /// An event of a session, as its record has it.
 struct Happening {
-  std::string session;  ///< the console's id
-  std::string record;   ///< its record's UUID: a session of a study has several
-  /// Of it among all that the record has, and of the one told before it; -1: it is the first
-  std::int64_t number = 0, after = -1;
-  double t_s = 0;  ///< session time
+  std::string session;      ///< the console's id
+  std::string record;       ///< its record's UUID: a session of a study has several
+  std::int64_t number = 0;  ///< of it among those of its record that are told: 0, 1, ...
+  double t_s = 0;           ///< session time
   int trial = 0;
   std::string event, text, tone;
 };
@@ -92,7 +94,8 @@ Heard heardIn(std::string_view text);
 /// stop that stands beside the trainee.
 struct Ask {
   enum class What { prepare, pause, stop, leave };
-  std::string id;  ///< chosen by whoever asks; the answer bears it
+  std::string id;       ///< chosen by whoever asks; the answer bears it
+  std::string session;  ///< which one is meant; empty: of `prepare`
   What what = What::pause;
   nlohmann::json wish;  ///< of `prepare`: as the station's own page asks for a session
 };

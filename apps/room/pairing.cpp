@@ -58,7 +58,7 @@ std::string rights(const std::string& user, const std::string& station,
 /// Mosquitto reads the rest of a line as the value: a path may hold spaces.
 std::string brokerSettingsText(const fs::path& folder, int port) {
   const std::string at = folder.string();
-  return "# Written by palpa console pair. Start: mosquitto -c " + at +
+  return "# Written by palpa console pair. Start: /usr/sbin/mosquitto -c " + at +
          "/mosquitto.conf\n"
          "# Whose files these are: who starts it as root gives that up\n"
          "user " +
@@ -104,6 +104,12 @@ std::string brokerSettingsText(const fs::path& folder, int port) {
 
 }  // namespace
 
+void needStationName(const std::string& name) {
+  if (!isStationName(name))
+    throw UsageError("is no name of a station", name.substr(0, 64),
+                     "Use 1 to 32 letters, digits, - and _");
+}
+
 void writePairing(const fs::path& file, const Pairing& p) {
   const json text{{"version", kVersion},
                   {"station", p.station},
@@ -140,7 +146,14 @@ Room Room::made(const fs::path& folder, const std::string& host, int port,
   Room room(fs::absolute(folder));
   std::error_code none;
   if (fs::exists(room.folder_ / kFacts, none)) room = in(folder);
-  room.host_ = os::usualForm(host);
+  const std::string place = os::usualForm(host);
+  if (!room.stations_.empty() && (room.host_ != place || room.port_ != port))
+    throw UsageError(
+        "has stations that know its broker at " + room.host_ + ":" + std::to_string(room.port_),
+        "the room " + folder.string(),
+        "Leave --broker and --port out; or make another room with --room, and pair "
+        "all stations to that");
+  room.host_ = place;
   room.port_ = port;
   if (const std::error_code problem = os::makeFolders(room.folder_ / "broker"))
     failFile("cannot be made", room.folder_, problem, "Or choose another folder with --room");
@@ -169,7 +182,7 @@ Room Room::in(const fs::path& folder) {
   for (const JsonFile& one : json.entries("stations")) {
     const std::string name = one.text("name");
     if (!isStationName(name)) one.refuse("name", "is no name of a station");
-    room.stations_[name] = one.text("user");
+    room.stations_[name] = {one.text("user"), one.text("since_utc")};
   }
   return room;
 }
@@ -179,9 +192,9 @@ void Room::write() const {
   std::string all = "# Written by palpa console pair\n";
   all += rights(kWatcher, "+", {Topic::heard, Topic::asks},
                 {Topic::about, Topic::state, Topic::events, Topic::answers, Topic::heard});
-  for (const auto& [name, user] : stations_) {
-    stations.push_back({{"name", name}, {"user", user}});
-    all += rights(user, name, {Topic::about, Topic::state, Topic::events, Topic::answers},
+  for (const auto& [name, station] : stations_) {
+    stations.push_back({{"name", name}, {"user", station.user}, {"since_utc", station.since_utc}});
+    all += rights(station.user, name, {Topic::about, Topic::state, Topic::events, Topic::answers},
                   {Topic::heard, Topic::asks});
   }
   writeWhole(folder_ / "rights", all, Lasts::yes, Readers::owner);
@@ -197,17 +210,20 @@ BrokerAccess Room::access(const os::Identity& identity) const {
   return {host_, port_, heldAs(folder_, "authority").certificate, identity};
 }
 
-Pairing Room::pair(const std::string& station, std::chrono::sys_seconds now) {
-  if (!isStationName(station))
-    throw UsageError("is no name of a station", station.substr(0, 64),
-                     "Use 1 to 32 letters, digits, - and _");
+Pairing Room::pair(const std::string& station, std::chrono::sys_seconds now,
+                   const std::function<void(const Pairing&)>& hand) {
+  needStationName(station);
   const std::string user = station + "-" + hex8();
   const os::Identity identity = os::makeIdentity(
       {.name = user, .reached_by = {}, .purpose = os::Purpose::client, .lasts = kLasts},
       authorityIn(folder_), now);
-  stations_[station] = user;
+  const auto before = stations_.find(station);
+  const std::string since = before == stations_.end() ? isoTime(now) : before->second.since_utc;
+  Pairing pairing{station, since, access(identity)};
+  if (hand) hand(pairing);
+  stations_[station] = {user, since};
   write();
-  return {station, isoTime(now), access(identity)};
+  return pairing;
 }
 
 bool Room::forget(const std::string& station) {

@@ -78,15 +78,32 @@ bool StationLine::tell(const Happening& happening) {
   const std::lock_guard lock(mutex_);
   if (!heard_) return false;
   const auto last = told_.find(happening.record);
-  if (last != told_.end() && happening.number <= last->second) return true;
+  if (last != told_.end() && happening.number <= last->second.number) return true;
   const bool heard = happening.number <= heard_->of(happening.session, happening.record);
   if (!heard && under_way_.size() == kMostUnderWay) return false;
-  told_[happening.record] = happening.number;
+  told_[happening.record] = {happening.session, happening.number};
   if (heard) return true;
   if (under_way_.empty()) moved_ = ServingClock::now();
   under_way_.push_back(happening);
   line_.say(said(Topic::events, toJson(happening), false));
   return true;
+}
+
+int StationLine::beginnings() const {
+  const std::lock_guard lock(mutex_);
+  return beginnings_;
+}
+
+/// With the mutex held.
+bool StationLine::missesWhatIsNotUnderWay() const {
+  return std::any_of(told_.begin(), told_.end(), [&](const auto& one) {
+    const auto& [record, told] = one;
+    const std::int64_t heard = heard_->of(told.session, record);
+    if (told.session <= heard_->beyond || told.number <= heard) return false;
+    return std::none_of(under_way_.begin(), under_way_.end(), [&](const Happening& h) {
+      return h.record == record && h.number == heard + 1;
+    });
+  });
 }
 
 void StationLine::look() {
@@ -111,7 +128,11 @@ void StationLine::hearsOf(const Heard& heard) {
     return one.session <= heard.beyond || one.number <= heard.of(one.session, one.record);
   });
   patience_ = kFirstPatience;
-  if (under_way_.size() < before) {
+  if (missesWhatIsNotUnderWay()) {  // his pages are gone, or older than they were
+    told_.clear();
+    under_way_.clear();
+    ++beginnings_;
+  } else if (under_way_.size() < before) {
     moved_ = ServingClock::now();
   } else if (!under_way_.empty() && ServingClock::now() - moved_ > seconds(1)) {
     tellAgain();  // he has begun anew, or one was lost on the way

@@ -33,6 +33,9 @@ class StationLine {
   /// Of a record, in its order. What was told or heard before is passed over. False: too much is
   /// under way, try again later.
   bool tell(const Happening& happening);
+  /// Another number than before: the watcher has less than he had; all is to be told from its
+  /// beginning.
+  int beginnings() const;
   /// Up to which number the watcher has it; -1: nothing.
   std::int64_t heardOf(const std::string& session, const std::string& record) const;
   /// Now and then: what was not heard in time is told again.
@@ -46,6 +49,7 @@ class StationLine {
   void hearsOf(const Heard& heard);
   void obey(const Ask& ask);
   void tellAgain();
+  bool missesWhatIsNotUnderWay() const;
   Said said(Topic topic, const nlohmann::json& message, bool retained) const;
 
   const std::string station_;
@@ -55,9 +59,14 @@ class StationLine {
   StationState shown_;
   Time shown_at_{};
   std::optional<Heard> heard_;
-  std::deque<Happening> under_way_;           ///< told and not heard
-  std::map<std::string, std::int64_t> told_;  ///< of each record: the newest
-  Time moved_{};                              ///< something was heard, or told again
+  std::deque<Happening> under_way_;  ///< told and not heard
+  struct Told {
+    std::string session;
+    std::int64_t number = -1;
+  };
+  std::map<std::string, Told> told_;  ///< of each record: the newest
+  int beginnings_ = 0;
+  Time moved_{};  ///< something was heard, or told again
   std::chrono::seconds patience_;
   std::deque<std::string> asked_;  ///< newest ids: a broker may say a thing twice
   BrokerLine line_;                ///< last: its thread uses the rest

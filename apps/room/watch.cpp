@@ -16,7 +16,14 @@ using nlohmann::json;
 
 constexpr char kPage[] = "events.jsonl", kPageBefore[] = "events-before.jsonl";
 constexpr std::uintmax_t kLongestPage = 8u << 20;
-constexpr std::size_t kNewest = 200, kMostSessions = 100;
+constexpr std::size_t kNewest = 200, kMostSessions = 100, kMostRecords = 30, kMostNumbers = 300;
+constexpr std::chrono::seconds kSilent{15};
+
+std::size_t numbersIn(const Heard& heard) {
+  std::size_t count = 0;
+  for (const auto& [session, records] : heard.sessions) count += records.size();
+  return count;
+}
 
 std::vector<std::string> everyTopic() {
   std::vector<std::string> all;
@@ -46,6 +53,7 @@ RoomWatch::RoomWatch(BrokerAccess access, fs::path folder)
           failFile("cannot be made", folder_, problem);
         read(folder_ / kPageBefore);
         read(folder_ / kPage);
+        endLine();
         return {.access = std::move(access),
                 .last_will = {},
                 .topics = everyTopic(),
@@ -69,10 +77,17 @@ void RoomWatch::read(const fs::path& file) {
   }
 }
 
+/// What is written next begins a line of its own.
+void RoomWatch::endLine() const {
+  const auto page = readWhole(folder_ / kPage);
+  if (page && !page->empty() && page->back() != '\n')
+    std::ofstream(folder_ / kPage, std::ios::app) << '\n';
+}
+
 void RoomWatch::note(Known* known, const Kept& kept) {
   const Happening& happening = kept.happening;
   known->heard.sessions[happening.session][happening.record] = happening.number;
-  while (known->heard.sessions.size() > kMostSessions) {
+  while (known->heard.sessions.size() > kMostSessions || numbersIn(known->heard) > kMostNumbers) {
     known->heard.beyond = known->heard.sessions.begin()->first;
     known->heard.sessions.erase(known->heard.sessions.begin());
   }
@@ -90,13 +105,20 @@ std::vector<Said> RoomWatch::greeting() {
 
 bool RoomWatch::keep(const std::string& line) {
   std::error_code none;
-  if (fs::file_size(folder_ / kPage, none) > kLongestPage && !none) turnPage();
+  const auto sizeNow = [&] {
+    const std::uintmax_t size = fs::file_size(folder_ / kPage, none);
+    return none ? std::uintmax_t{0} : size;
+  };
+  if (sizeNow() > kLongestPage) turnPage();
+  const std::uintmax_t size = sizeNow();
   std::ofstream out(folder_ / kPage, std::ios::app);
   out << line << '\n' << std::flush;
-  trouble_ = out ? ""
-                 : "Events of the room cannot be kept in " + folder_.string() +
-                       ": look whether the disk is full. The stations keep them";
-  return trouble_.empty();
+  trouble_.clear();
+  if (out) return true;
+  fs::resize_file(folder_ / kPage, size, none);  // no half a line
+  trouble_ = "Events of the room cannot be kept in " + folder_.string() +
+             ": look whether the disk is full. The stations keep them";
+  return false;
 }
 
 void RoomWatch::turnPage() {
@@ -104,7 +126,11 @@ void RoomWatch::turnPage() {
   for (const auto& [name, known] : stations_) heads += wire(headOf(name, known.heard)) + "\n";
   std::error_code none;
   fs::rename(folder_ / kPage, folder_ / kPageBefore, none);
-  std::ofstream(folder_ / kPage) << heads;
+  if (none) return;  // the next time
+  try {
+    writeWhole(folder_ / kPage, heads, Lasts::no);
+  } catch (const Error&) {  // the page before has them
+  }
 }
 
 /// Only what follows on what is here: the rest is told again.
@@ -112,7 +138,9 @@ void RoomWatch::take(const std::string& station, const Happening& happening) {
   Known& known = stations_[station];
   const std::int64_t last = known.heard.of(happening.session, happening.record);
   if (happening.session <= known.heard.beyond || happening.number <= last) return;
-  if (happening.after == last) {
+  const auto its = known.heard.sessions.find(happening.session);
+  if (last < 0 && its != known.heard.sessions.end() && its->second.size() >= kMostRecords) return;
+  if (happening.number == last + 1) {
     const Kept kept{runtime::utcNow(), happening};
     if (!keep(wire(lineOf(station, kept)))) return;
     note(&known, kept);
@@ -134,6 +162,7 @@ void RoomWatch::hears(const Said& said) {
         break;
       case Topic::state:
         stations_[station].state = stationStateIn(said.words);
+        if (!said.retained) stations_[station].heard_at = runtime::ServingClock::now();
         break;
       case Topic::events:
         take(station, happeningIn(said.words));
@@ -154,7 +183,12 @@ void RoomWatch::hears(const Said& said) {
 
 std::map<std::string, RoomWatch::Station> RoomWatch::stations() const {
   const std::lock_guard lock(mutex_);
-  return {stations_.begin(), stations_.end()};
+  std::map<std::string, Station> all(stations_.begin(), stations_.end());
+  // A broker that was killed has no last wills.
+  const auto now = runtime::ServingClock::now();
+  for (auto& [name, station] : all)
+    if (now - station.heard_at > kSilent) station.state = goneWithoutAWord();
+  return all;
 }
 
 std::vector<Kept> RoomWatch::happenings(const std::string& station) const {
@@ -165,10 +199,11 @@ std::vector<Kept> RoomWatch::happenings(const std::string& station) const {
 }
 
 std::optional<Answer> RoomWatch::ask(const std::string& station, const Ask& ask,
-                                     std::chrono::milliseconds patience) {
+                                     std::chrono::seconds patience) {
+  if (!line_.state().stands) return std::nullopt;
   std::unique_lock lock(mutex_);
   waited_for_[ask.id] = std::nullopt;
-  line_.say({topicOf(station, Topic::asks), wire(toJson(ask)), false});
+  line_.say({topicOf(station, Topic::asks), wire(toJson(ask)), false, patience});
   answered_.wait_for(lock, patience, [&] { return waited_for_[ask.id].has_value(); });
   const std::optional<Answer> answer = waited_for_[ask.id];
   waited_for_.erase(ask.id);

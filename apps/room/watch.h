@@ -22,8 +22,9 @@ struct Kept {
 };
 
 /// Who watches a room: how its stations stand, and every event that their sessions record, once, in
-/// order. Events are kept in a file before they count as heard, so that a console that is killed
-/// neither loses nor doubles one; the file is kept within 16 MB, the oldest go. Any thread.
+/// order. Events are written to a file before they count as heard, so that a console that is killed
+/// neither loses nor doubles one; what a power cut takes from the file is told anew. The file is
+/// kept within 16 MB, the oldest go. Any thread.
 class RoomWatch {
  public:
   /// `folder`: of its own. Throws Error where it cannot be written.
@@ -34,15 +35,16 @@ class RoomWatch {
 
   struct Station {
     std::optional<StationFacts> about;
-    StationState state;
+    StationState state;       ///< gone, unless it has said something within the last 15 s
     std::int64_t events = 0;  ///< that came since this console began
+    runtime::ServingClock::time_point heard_at{};  ///< live, not what a broker had kept
   };
   std::map<std::string, Station> stations() const;
   /// The newest of a station, the newest last; at most 200.
   std::vector<Kept> happenings(const std::string& station) const;
-  /// Nothing: no answer came within `patience`.
+  /// Nothing: no answer came within `patience`, or the broker is not there. It is not done later.
   std::optional<Answer> ask(const std::string& station, const Ask& ask,
-                            std::chrono::milliseconds patience);
+                            std::chrono::seconds patience);
   BrokerLine::State broker() const { return line_.state(); }
   /// Why events cannot be kept; empty: they are.
   std::string trouble() const;
@@ -57,6 +59,7 @@ class RoomWatch {
   void take(const std::string& station, const Happening& happening);
   bool keep(const std::string& line);
   void turnPage();
+  void endLine() const;
   void note(Known* known, const Kept& kept);
   std::vector<Said> greeting();
 

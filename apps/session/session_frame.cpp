@@ -270,7 +270,8 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   if (stop_key_) stop_key.emplace(*stop_key_, bus_.stop);
   std::optional<PedalWatch> pedal;
   if (mode_ == runtime::TimeMode::real && !world_.station.stop_pedal.empty())
-    pedal.emplace(world_.station.stop_pedal, channels_, bus_.stop);
+    pedal.emplace(world_.station.stop_pedal, bus_.stop);
+  if (pedal) watch.listenTo([&pedal] { return pedal->news(); });
   devices_.addTo(*executive_);
   if (const std::string warning = devices_.warning(); !warning.empty()) task.warn(warning);
   if (window_ && !options_.fast) task.stay();

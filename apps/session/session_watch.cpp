@@ -72,8 +72,9 @@ std::int64_t SessionWatch::endSession(const char* why, std::int64_t now_ns) {
 
 void SessionWatch::nameTheStuck(std::int64_t now_ns) {
   next_look_ns_ = now_ns + kStuckPeriod;
-  if (const std::string words = news_ ? news_() : ""; !words.empty())
-    channels_.signals_to_task.push({trial::UserCommand::remark, words, 1});
+  for (const auto& ask : news_)
+    if (const std::string words = ask(); !words.empty())
+      channels_.signals_to_task.push({trial::UserCommand::remark, words, 1});
   runtime::Executive::Stuck stuck = stuckNow();
   for (const std::string& name : stuck)
     if (!has(stuck_, name)) tellSilent(name);
@@ -124,10 +125,13 @@ std::int64_t StopKeyWatch::step(std::int64_t now_ns) {
 void PedalWatch::hear() {
   if (!pedal_.pressed()) return;
   stop_.press();
-  if (pedal_.descriptor() < 0)
-    channels_.signals_to_task.push(
-        {trial::UserCommand::remark,
-         "The stop pedal is gone. Forces are off; without it use the space bar", 1});
+  gone_.store(pedal_.descriptor() < 0);
+}
+
+std::string PedalWatch::news() {
+  return gone_.exchange(false)
+             ? "The stop pedal is gone. Forces are off; without it use the space bar"
+             : "";
 }
 
 std::int64_t PedalWatch::step(std::int64_t now_ns) {

@@ -38,7 +38,7 @@ class SessionWatch final : public runtime::Activity {
   std::int64_t step(std::int64_t now_ns) override;
 
   /// Asked now and then for what is new of a part that has no line of its own; empty: nothing.
-  void listenTo(std::function<std::string()> news) { news_ = std::move(news); }
+  void listenTo(std::function<std::string()> news) { news_.push_back(std::move(news)); }
   void windowIsLost() noexcept { window_lost_.store(true); }  ///< any thread
 
  private:
@@ -55,7 +55,7 @@ class SessionWatch final : public runtime::Activity {
   const live::LiveSession* const console_;
   std::atomic<bool> window_lost_{false};
   os::InterruptNote note_;
-  std::function<std::string()> news_;
+  std::vector<std::function<std::string()>> news_;
   runtime::Executive::Stuck stuck_;      ///< as last named
   std::map<std::string, int> silences_;  ///< of each part so far
   std::int64_t next_look_ns_ = 0;
@@ -83,16 +83,17 @@ class StopKeyWatch final : public runtime::Activity {
 class PedalWatch final : public runtime::Activity {
  public:
   /// Throws Error as os::Pedal does.
-  PedalWatch(const std::string& device, trial::Channels& channels, runtime::StopSwitch& stop)
-      : pedal_(device), channels_(channels), stop_(stop) {}
+  PedalWatch(const std::string& device, runtime::StopSwitch& stop) : pedal_(device), stop_(stop) {}
   const char* name() const override { return "stop pedal"; }
   std::int64_t step(std::int64_t now_ns) override;
+  /// That it is gone, once; any thread.
+  std::string news();
 
  private:
   void hear();
   os::Pedal pedal_;
-  trial::Channels& channels_;
   runtime::StopSwitch& stop_;
+  std::atomic<bool> gone_{false};
 };
 
 }  // namespace palpa::session

@@ -61,7 +61,7 @@ function remember(here) {
     document.getElementById("foot"),
     `Palpa ${here.version || ""} · Pseudonyms only · ` +
       (here.room?.station
-        ? `The room's console sees how ${here.room.station} stands, without records`
+        ? `The room's console is told how ${here.room.station} stands and what happens here`
         : "Records stay on this station, nothing leaves this computer."),
   );
 }

@@ -8,15 +8,14 @@ import { badge, button, choice, field, notice, radios, simulatedBadge, tag } fro
 const kLook_ms = 1000,
   kPicture_ms = 2000,
   kEvents = 12; // of the newest, on a card
-const kOwnStates = {
-  free: ["none", "free"],
-  starting: ["work", "starting"],
-  gone: ["bad", "gone"],
-  waiting: ["note", "waits for a start there"],
-};
+const kOwnStates = new Map([
+  ["free", ["none", "free"]],
+  ["starting", ["work", "starting"]],
+  ["gone", ["bad", "gone"]],
+  ["waiting", ["note", "waits for a start there"]],
+]);
 
-const standing = (s) =>
-  !s.present ? kOwnStates.gone : (kOwnStates[s.state] ?? liveState(s.state));
+const standing = (s) => kOwnStates.get(s.present ? s.state : "gone") ?? liveState(s.state);
 const needsSomebody = (s) => !s.present || Boolean(s.alarm);
 const inOrder = (a, b) =>
   Number(needsSomebody(b)) - Number(needsSomebody(a)) || a.name.localeCompare(b.name);
@@ -98,8 +97,10 @@ class StationCard {
     this.alarm = h("div", { role: "alert", class: "alarm" });
     this.picture = h("img", { class: "room-view", alt: `What is seen at ${name}`, hidden: true });
     const said = h("div", { class: "said" });
-    const ask = (what, wish) => post(url("/api/room", name, "ask"), { ask: what, wish });
-    const make = (label, work, more = {}) => button(label, work, { trouble: said, ...more });
+    const ask = (what, wish) =>
+      post(url("/api/room", name, "ask"), { ask: what, wish, session: wish ? "" : this.session });
+    const make = (label, work, more = {}) =>
+      button(label, work, { trouble: said, "aria-label": `${label}: ${name}`, ...more });
     this.prepare = make("Prepare a session", async () => {
       const wish = await askWhatToPrepare(name, await choices());
       if (!wish) return;
@@ -150,6 +151,7 @@ class StationCard {
     this.events_ = s.events;
     if (key === this.shown) return;
     this.shown = key;
+    this.session = s.session;
     const [tone, word] = standing(s);
     put(
       this.state,
@@ -216,11 +218,20 @@ export async function show({ root, life, open }) {
   const cards = new Map();
   let made = null;
   const choices = () => {
-    made ??= Promise.all([list("/api/tasks"), list("/api/trainees")]).then(([tasks, trainees]) => ({
-      tasks,
-      trainees,
-    }));
+    made ??= Promise.all([list("/api/tasks"), list("/api/trainees")]).then(
+      ([tasks, trainees]) => ({ tasks, trainees }),
+      (error) => {
+        made = null; // asked again the next time
+        throw error;
+      },
+    );
     return made;
+  };
+  const add = (name) => {
+    const card = new StationCard(name, choices);
+    cards.set(name, card);
+    grid.append(card.node);
+    life.every(kPicture_ms, () => card.look());
   };
   let wrongShown = "";
   const look = async () => {
@@ -235,13 +246,16 @@ export async function show({ root, life, open }) {
     if (key !== wrongShown) put(wrong, troubles(watch));
     wrongShown = key;
     for (const s of stations) {
-      if (!cards.has(s.name)) cards.set(s.name, new StationCard(s.name, choices));
+      if (!cards.has(s.name)) add(s.name);
       cards.get(s.name).show(s);
     }
-    const order = stations.map((s) => cards.get(s.name).node);
-    if (order.some((node, at) => grid.children[at] !== node)) put(grid, order);
+    for (const [name, card] of cards) card.node.hidden = !stations.some((s) => s.name === name);
+    // Nothing moves under a hand that is about to press.
+    if (!grid.matches(":hover, :focus-within"))
+      stations.forEach((s, at) => {
+        cards.get(s.name).node.style.order = String(at);
+      });
     return true;
   };
   life.every(kLook_ms, look);
-  life.every(kPicture_ms, () => Promise.all([...cards.values()].map((card) => card.look())));
 }

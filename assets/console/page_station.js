@@ -74,7 +74,9 @@ async function lookForRoom(node) {
       : notice(
           "note",
           joined.trouble || "The room's broker is being reached…",
-          h("p", {}, "This station goes on alone: what its sessions record is told later."),
+          joined.stands
+            ? null
+            : h("p", {}, "This station goes on alone: what its sessions record is told later."),
         ),
   );
 }
@@ -85,7 +87,7 @@ export async function show({ root, life, open, me }) {
     room = h("div", {}),
     list = h("div", {});
   root.append(hero, room, list);
-  if (me.room?.station) life.every(kRoom_ms, () => lookForRoom(room));
+  if (me.room?.station || me.room?.trouble) life.every(kRoom_ms, () => lookForRoom(room));
   let shown = "";
   const look = async () => {
     const health = await get("/api/health");

@@ -46,6 +46,7 @@ class ConsoleInARoom : public testing::Test {
     event(runtime::EventKind::vein, "The tip is in the vein");
     event(runtime::EventKind::note, "Mary's hand shook");
     event(runtime::EventKind::emergency_stop, "Emergency stop");
+    writer.event({2'000'000'000, 1, "void", "Mary felt faint", 0});
     writer.close();
   }
 
@@ -71,9 +72,9 @@ TEST_F(ConsoleInARoom, AStationPreparesTellsShowsAndStopsAsItIsAsked) {
   ASSERT_TRUE(inTime([&] { return now().about && now().state.present; }));
   EXPECT_EQ(now().about->url, station_->url());
   const auto asks = [&](const char* id, room::Ask::What what, const json& wish = {}) {
-    return watch->ask("one", {id, what, wish}, 20s).value_or(room::Answer{});
+    return watch->ask("one", {id, now().state.session, what, wish}, 20s).value_or(room::Answer{});
   };
-  EXPECT_EQ(asks("a", room::Ask::What::stop).words, "no session is running there");
+  EXPECT_EQ(asks("a", room::Ask::What::stop).words, "that session is not running there (any more)");
   EXPECT_NE(asks("b", room::Ask::What::prepare, {{"task", "../x"}}).words, "");
   const auto prepared = asks("c", room::Ask::What::prepare,
                              {{"task", "paracentesis"}, {"operator", "expert"}, {"film", true}});
@@ -81,11 +82,8 @@ TEST_F(ConsoleInARoom, AStationPreparesTellsShowsAndStopsAsItIsAsked) {
   ASSERT_TRUE(inTime([&] { return !now().state.session.empty(); }));
   EXPECT_EQ(now().state.task, "Access to the subclavian vein");
   ASSERT_TRUE(inTime([&] { return now().events >= 50; }));
-  std::int64_t last = -1;
-  for (const room::Kept& kept : watch->happenings("one")) {
-    EXPECT_EQ(kept.happening.after, last);
-    last = kept.happening.number;
-  }
+  std::int64_t next = 0;
+  for (const room::Kept& kept : watch->happenings("one")) EXPECT_EQ(kept.happening.number, next++);
 
   httplib::Client client = station_->client();
   const auto picture = [&](const std::string& key) {
@@ -109,7 +107,8 @@ TEST_F(ConsoleInARoom, WhatWasRecordedWhileNobodyListenedIsToldWithoutNamesOrAns
   join();
   const auto watch = this->watch();
   const std::vector<std::string> open{"Trial 1 starts", "The tip is in the vein",
-                                      "Somebody noted something", "Emergency stop"};
+                                      "Somebody noted something", "Emergency stop",
+                                      "The trial ended: void"};
   EXPECT_TRUE(inTime([&] { return textsOf(*watch, "20260101-000000-open") == open; }));
   const std::vector<std::string> blind{"The trial began", "Somebody noted something",
                                        "Emergency stop"};
@@ -132,21 +131,30 @@ TEST_F(ConsoleInARoom, TheOneThatWatchesShowsWhatItHearsAndPassesOnWhatIsAsked) 
   EXPECT_EQ(nobody["watch"]["stations"].size(), 0u);
   EXPECT_EQ(station_->get("/api/me")["room"]["watches"], true);
   room::StationLine line(room::readPairing(pairing_, today()),
-                         {"http://127.0.0.1:1/", "", "key", "1"}, [](const room::Ask& ask) {
+                         {"http://127.0.0.1:1/", "", std::string(32, 'a'), "1"},
+                         [](const room::Ask& ask) {
                            return room::Answer{"", ask.what == room::Ask::What::pause, "never"};
                          });
   ASSERT_TRUE(inTime([&] { return station_->get("/api/room")["watch"]["stations"].size() == 1; }));
-  room::Happening event{"20260101-a", "r", 0, -1, 1.5, 1, "phase", "On the way", "neutral"};
+  room::Happening event{"20260101-a", "r", 0, 1.5, 1, "phase", "On the way", "neutral"};
   ASSERT_TRUE(inTime([&] { return line.tell(event); }));
   ASSERT_TRUE(inTime([&] { return station_->get("/api/room/one/events").size() == 1; }));
   EXPECT_EQ(station_->get("/api/room/one/events")[0]["text"], "On the way");
-  EXPECT_EQ(station_->post("/api/room/one/ask", {{"ask", "pause"}}), 200);
+  EXPECT_EQ(station_->post("/api/room/one/ask", {{"ask", "pause"}, {"session", "s"}}), 200);
   json told;
-  EXPECT_EQ(station_->post("/api/room/one/ask", {{"ask", "stop"}}, &told), 409);
+  EXPECT_EQ(station_->post("/api/room/one/ask", {{"ask", "stop"}, {"session", "s"}}, &told), 409);
   EXPECT_EQ(told["error"], "one: never");
-  EXPECT_EQ(station_->post("/api/room/one/ask", {{"ask", "start"}}), 422);
-  EXPECT_EQ(station_->post("/api/room/two/ask", {{"ask", "pause"}}), 404);
+  EXPECT_EQ(station_->post("/api/room/one/ask", {{"ask", "start"}, {"session", "s"}}), 422);
+  EXPECT_EQ(station_->post("/api/room/two/ask", {{"ask", "pause"}, {"session", "s"}}), 404);
   EXPECT_EQ(station_->client().Get("/api/room/one/picture")->status, 404);
+}
+
+TEST_F(ConsoleInARoom, AStationWhoseFileIsDamagedStartsAloneAndSaysSo) {
+  std::ofstream(pairing_) << "{}";
+  join();
+  const json joined = station_->get("/api/room")["joined"];
+  EXPECT_EQ(joined["stands"], false);
+  EXPECT_NE(joined.value("trouble", "").find("version"), std::string::npos) << joined.dump();
 }
 
 TEST_F(ConsoleInARoom, WithoutARoomNothingOfItIsThere) {

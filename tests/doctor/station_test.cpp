@@ -101,7 +101,7 @@ TEST(DoctorsPedal, IsThereOrIsNamed) {
   station::Station station = benchStation();
   expectSays(askPedal(station), State::absent, "none");
   station.stop_pedal = "/dev/null";
-  expectSays(askPedal(station), State::well, "is there");
+  expectSays(askPedal(station), State::ill, "has no keys");
   station.stop_pedal = "/dev/input/by-id/nowhere";
   expectSays(askPedal(station), State::ill, "is not there");
 }

@@ -142,9 +142,6 @@ TEST(LiveSink, EvidenceGetsEverythingAndTheLogWhatCanBeTold) {
   EXPECT_EQ(told[1]["t_s"], 1.5);
   EXPECT_EQ(told[2]["text"], "<b>good</b>");
   EXPECT_EQ(told[2]["tone"], "note");
-  // Of all that the record has.
-  EXPECT_EQ(told[1]["number"], 0);
-  EXPECT_EQ(told[2]["number"], 2);
   EXPECT_EQ(told[3]["kind"], "curve");
   EXPECT_EQ(told[4]["kind"], "trial_end");
 }

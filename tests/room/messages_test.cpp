@@ -39,19 +39,19 @@ StationState someState() {
 }
 
 Happening someEvent() {
-  return {"20260301-100000-ab", "0f-1", 7, 4, 31.25, 2, "vein", "The tip is in the vein", "good"};
+  return {"20260301-100000-ab", "0f-1", 7, 31.25, 2, "vein", "The tip is in the vein", "good"};
 }
 
 TEST(RoomMessages, AreReadAsTheyAreWritten) {
   const auto again = [](const auto& message, auto read) {
     EXPECT_EQ(toJson(read(wire(toJson(message)))), toJson(message));
   };
-  again(StationFacts{"https://a.local/", "PEM", "k", "1.2"}, stationFactsIn);
+  again(StationFacts{"https://a.local/", "PEM", std::string(32, '7'), "1.2"}, stationFactsIn);
   again(someState(), stationStateIn);
   again(goneWithoutAWord(), stationStateIn);
   again(someEvent(), happeningIn);
   again(Heard{"20260301-100000-aa", {{"20260301-100000-ab", {{"0f-1", 7}, {"0f-2", 0}}}}}, heardIn);
-  again(Ask{"q1", Ask::What::prepare, {{"task", "subclavian"}}}, askIn);
+  again(Ask{"q1", "", Ask::What::prepare, {{"task", "subclavian"}}}, askIn);
   again(Answer{"q1", false, "one is running already"}, answerIn);
 }
 
@@ -62,14 +62,24 @@ TEST(RoomMessages, WhatIsNoneIsRefused) {
     EXPECT_THROW(happeningIn(wire(message)), UsageError) << why;
   };
   refused([](auto& m) { m.erase("number"); }, "no number");
-  refused([](auto& m) { m["number"] = 4; }, "after itself");
+  refused([](auto& m) { m["number"] = -1; }, "below all");
   refused([](auto& m) { m["number"] = 18446744073709551615u; }, "beyond all counts");
   refused([](auto& m) { m["session"] = "../etc"; }, "no id");
   refused([](auto& m) { m["text"] = std::string(3000, 'x'); }, "too long");
   EXPECT_THROW(happeningIn("[]"), UsageError);
+  for (const char* url : {"http://10.0.0.1/", "javascript:alert(1)", "https://a/b", "https://a b/",
+                          "http://127.0.0.1.evil.example/", "https://a/\r\nX: 1"})
+    EXPECT_THROW(stationFactsIn(wire(toJson(StationFacts{url, "", std::string(32, '7'), "1"}))),
+                 UsageError)
+        << url;
+  EXPECT_THROW(stationFactsIn(wire(toJson(StationFacts{"", "", "k\r\nX: 1", "1"}))), UsageError);
+  nlohmann::json state = toJson(someState());
+  state["state"] = "constructor";
+  EXPECT_THROW(stationStateIn(wire(state)), UsageError);
   EXPECT_THROW(happeningIn(std::string(40'000, ' ')), UsageError);
-  EXPECT_THROW(askIn(R"({"id": "a", "ask": "start"})"), UsageError);  // force begins at the station
-  EXPECT_THROW(askIn(R"({"id": "a", "ask": "rearm"})"), UsageError);
+  EXPECT_THROW(askIn(R"({"id": "a", "session": "s", "ask": "start"})"),
+               UsageError);  // force begins at the station
+  EXPECT_THROW(askIn(R"({"id": "a", "session": "s", "ask": "rearm"})"), UsageError);
   EXPECT_EQ(Heard{}.of("a", "b"), -1);
 }
 
@@ -80,7 +90,7 @@ TEST(RoomMessages, DamagedOnesAreReadOrRefused) {
   const std::string messages[] = {
       wire(toJson(someState())), wire(toJson(someEvent())),
       wire(toJson(Heard{"a", {{"b", {{"c", 7}}}}})),
-      wire(toJson(Ask{"q1", Ask::What::prepare, {{"task", "subclavian"}}}))};
+      wire(toJson(Ask{"q1", "", Ask::What::prepare, {{"task", "subclavian"}}}))};
   int read = 0;
   for (int i = 0; i < count; ++i) {
     const std::string text = palpa::test::mutated(messages[dice.below(4)], dice);

@@ -63,6 +63,12 @@ TEST_F(Pairings, GiveAStationItsOwnTopicsAndOnlyByItsNewestCertificate) {
   EXPECT_EQ(rights().find(first), std::string::npos);
   EXPECT_NE(rights().find(second), std::string::npos);
   EXPECT_EQ(rights().find("palpa/#"), std::string::npos);
+  // What waits to be told is of the first time; and what cannot be handed over changes nothing.
+  EXPECT_EQ(room_.pair("one", kDay + days(9)).made_utc, "2026-03-01T10:00:00Z");
+  const std::string before = rights();
+  EXPECT_THROW(room_.pair("one", kDay, [](const Pairing&) { throw Error("full", "disk", ""); }),
+               Error);
+  EXPECT_EQ(rights(), before);
   EXPECT_TRUE(room_.forget("one"));
   EXPECT_FALSE(room_.forget("one"));
   EXPECT_EQ(rights().find("palpa/one/"), std::string::npos);
@@ -76,9 +82,10 @@ TEST_F(Pairings, AreKnownAgain) {
   EXPECT_EQ(again.stations(), room_.stations());
   EXPECT_EQ(again.host(), "room.local");
   EXPECT_EQ(again.watcher(kDay).identity.certificate, room_.watcher(kDay).identity.certificate);
-  EXPECT_EQ(Room::made(scratch_ / "room", "room.local", 8884, kDay).stations(), room_.stations());
-  // Beyond what the authority vouches for: all are paired anew.
-  EXPECT_TRUE(Room::made(scratch_ / "room", "room.centre.example", 8884, kDay).stations().empty());
+  EXPECT_EQ(Room::made(scratch_ / "room", "room.local", 8883, kDay).stations(), room_.stations());
+  // Its stations know one place only.
+  EXPECT_THROW(Room::made(scratch_ / "room", "room.local", 8884, kDay), UsageError);
+  EXPECT_THROW(Room::made(scratch_ / "room", "room.centre.example", 8883, kDay), UsageError);
   EXPECT_THROW(Room::in(scratch_ / "nowhere"), UsageError);
 }
 

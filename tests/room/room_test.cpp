@@ -11,7 +11,6 @@ namespace palpa::room {
 namespace {
 
 using std::chrono::days;
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 /// A room with its broker on this computer.
@@ -31,7 +30,8 @@ class RoomOfStations : public testing::Test {
   }
   std::unique_ptr<StationLine> station(const Pairing& pairing) {
     return std::make_unique<StationLine>(
-        pairing, StationFacts{"http://127.0.0.1:1/", "", "key", "1"}, [this](const Ask& ask) {
+        pairing, StationFacts{"http://127.0.0.1:1/", "", std::string(32, 'a'), "1"},
+        [this](const Ask& ask) {
           ++asked_;
           return Answer{"", ask.what == Ask::What::pause, "not now"};
         });
@@ -48,7 +48,6 @@ Happening event(const std::string& session, std::int64_t number) {
   h.session = session;
   h.record = "rec-" + session;
   h.number = number;
-  h.after = number - 1;
   h.event = "phase";
   h.text = "Event " + std::to_string(number);
   h.tone = "neutral";
@@ -139,15 +138,15 @@ TEST_F(RoomOfStations, AsksAStationAndHearsTheAnswer) {
   const auto watch = this->watch();
   const auto line = station(pairing("one"));
   ASSERT_TRUE(soon([&] { return watch->stations()["one"].about.has_value(); }));
-  const auto paused = watch->ask("one", {"a1", Ask::What::pause, {}}, seconds(10));
+  const auto paused = watch->ask("one", {"a1", "s", Ask::What::pause, {}}, seconds(10));
   ASSERT_TRUE(paused);
   EXPECT_TRUE(paused->done);
-  const auto stopped = watch->ask("one", {"a2", Ask::What::stop, {}}, seconds(10));
+  const auto stopped = watch->ask("one", {"a2", "s", Ask::What::stop, {}}, seconds(10));
   ASSERT_TRUE(stopped);
   EXPECT_FALSE(stopped->done);
   EXPECT_EQ(stopped->words, "not now");
   EXPECT_EQ(asked_, 2);
-  EXPECT_FALSE(watch->ask("nobody", {"a3", Ask::What::pause, {}}, milliseconds(300)));
+  EXPECT_FALSE(watch->ask("nobody", {"a3", "s", Ask::What::pause, {}}, seconds(1)));
 }
 
 TEST_F(RoomOfStations, WhoIsOfAnotherRoomOrOverIsRefusedAndTold) {
@@ -184,6 +183,39 @@ TEST_F(RoomOfStations, NobodySpeaksForAnotherStation) {
   EXPECT_EQ(watch->stations().count("one"), 0u);
 }
 
+TEST_F(RoomOfStations, AWatcherWhosePagesAreGoneIsToldAgain) {
+  auto watch = this->watch();
+  const auto line = station(pairing("one"));
+  tellAll(*line, "20260101-a", 30);
+  EXPECT_TRUE(soon([&] { return numbersOf(*watch, "one") == upTo(30); }));
+  watch.reset();
+  std::filesystem::remove_all(scratch_ / "watch");
+  const int before = line->beginnings();
+  watch = this->watch();
+  EXPECT_TRUE(soon([&] { return line->beginnings() == before + 1; }));
+  tellAll(*line, "20260101-a", 40);
+  EXPECT_TRUE(soon([&] { return numbersOf(*watch, "one") == upTo(40); }));
+}
+
+TEST_F(RoomOfStations, WhatIsAskedWithoutABrokerIsNotDoneLater) {
+  const auto watch = this->watch();
+  const auto line = station(pairing("one"));
+  ASSERT_TRUE(soon([&] { return watch->stations()["one"].about.has_value(); }));
+  broker_->kill(SIGKILL);
+  ASSERT_TRUE(soon([&] { return !watch->broker().stands; }));
+  EXPECT_FALSE(watch->ask("one", {"a1", "s", Ask::What::pause, {}}, seconds(1)));
+  broker_->start();
+  ASSERT_TRUE(soon([&] { return watch->broker().stands && line->state().stands; }));
+  EXPECT_TRUE(watch->ask("one", {"a2", "s", Ask::What::pause, {}}, seconds(10)));
+  EXPECT_EQ(asked_, 1);
+}
+
+TEST_F(RoomOfStations, TwoByOneNameAreTold) {
+  const Pairing both = pairing("one");
+  const auto first = station(both), second = station(both);
+  EXPECT_TRUE(soon([&] { return says(*first, "another console") || says(*second, "another"); }));
+}
+
 TEST_F(RoomOfStations, NothingIsKeptTwiceOrOutOfOrder) {
   const auto watch = this->watch();
   BrokerLine line(
@@ -193,6 +225,7 @@ TEST_F(RoomOfStations, NothingIsKeptTwiceOrOutOfOrder) {
   };
   for (const int number : {0, 1, 1, 3, 0, 2, 2, 3, 4}) say(event("20260101-a", number));
   line.say({topicOf("one", Topic::events), "{\"session\": 7}", false});
+  line.say({topicOf("one", Topic::events), std::string(100'000, 'x'), false});  // never said
   say(event("20260101-a", 5));
   EXPECT_TRUE(soon([&] { return numbersOf(*watch, "one") == upTo(6); }));
 }

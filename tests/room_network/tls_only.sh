@@ -68,20 +68,21 @@ at=http://127.0.0.1:8090
 get() { room curl -sf "$at$1"; }
 key() { get /api/me | sed 's/.*"page_key":"\([0-9a-f]*\)".*/\1/'; }
 number() { head -c 16 /dev/urandom | od -An -tx1 | tr -d ' \n'; }
+session() { get /api/room | sed 's/.*"session":"\([^"]*\)".*/\1/'; }
 ask() {
   room curl -sf -X POST -H "Origin: $at" -H 'Content-Type: application/json' \
     -H "X-Palpa-Page: $(key)" -H "X-Palpa-Write: $(number)" -d "$1" "$at/api/room/one/ask"
 }
 stands() { get /api/room | grep -q "$1"; }
 soon "the station did not come" stands '"present":true'
-expert='{"ask":"prepare","wish":{"task":"paracentesis","operator":"expert"}}'
+expert='{"ask":"prepare","session":"","wish":{"task":"paracentesis","operator":"expert"}}'
 soon "no session was prepared" ask "$expert"
 soon "no trial ran" stands '"state":"running"'
 soon "no picture came" get /api/room/one/picture
-ask '{"ask":"pause"}' >/dev/null || fail "it was not paused"
-ask '{"ask":"stop"}' >/dev/null || fail "it was not stopped"
+ask "{\"ask\":\"pause\",\"session\":\"$(session)\"}" >/dev/null || fail "it was not paused"
+ask "{\"ask\":\"stop\",\"session\":\"$(session)\"}" >/dev/null || fail "it was not stopped"
 soon "the stop was not told" stands '"emergency_stop":true'
-ask '{"ask":"leave"}' >/dev/null || fail "it was not ended"
+ask "{\"ask\":\"leave\",\"session\":\"$(session)\"}" >/dev/null || fail "it was not ended"
 soon "it did not end" stands '"state":"free"'
 events=$(get /api/room/one/events | grep -o '"number"' | wc -l)
 [ "$events" -ge 5 ] || fail "only $events events came"
