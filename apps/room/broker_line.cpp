@@ -98,6 +98,8 @@ struct BrokerLine::Shared {
   // Of the line's thread alone.
   std::deque<std::pair<int, Waiting>> under_way;  ///< with the library's numbers
   bool open = false;
+  runtime::ServingClock::time_point opened_at{};
+  int brief = 0;  ///< lines in a row that were lost soon after they stood
   std::string log, refused;
 
   /// Held while somebody is told something; nobody is, once `deaf`: they may be gone.
@@ -117,7 +119,7 @@ struct BrokerLine::Shared {
 
   static Shared& of(void* self) { return *static_cast<Shared*>(self); }
   void hello(mosquitto* client, int reason);
-  void goodbye(int reason);
+  void countBriefLines();
   void hear(const mosquitto_message& message);
   void taken(int number, int reason);
 };
@@ -150,6 +152,7 @@ void BrokerLine::Shared::hello(mosquitto* client, int reason) {
     return;
   }
   open = true;
+  opened_at = runtime::ServingClock::now();
   settle(true, "");
   for (const std::string& topic : wish.topics)
     mosquitto_subscribe_v5(client, nullptr, topic.c_str(), kQos, 0, nullptr);
@@ -164,11 +167,16 @@ void BrokerLine::Shared::hello(mosquitto* client, int reason) {
   }
 }
 
-void BrokerLine::Shared::goodbye(int reason) {
-  if (reason == MQTT_RC_SESSION_TAKEN_OVER)
+/// Who shares a name with somebody is thrown out as soon as the other one comes back.
+void BrokerLine::Shared::countBriefLines() {
+  constexpr std::chrono::seconds kBrief{10};
+  constexpr int kMostBrief = 2;
+  const bool was_brief = open && runtime::ServingClock::now() - opened_at < kBrief;
+  brief = was_brief ? brief + 1 : 0;
+  if (brief > kMostBrief && refused.empty())
     refused =
-        "has another line by the same name: another console uses the same file of the room. "
-        "Close one of them, or pair this station again";
+        "ends every line at once: perhaps another console uses the same file of this room. "
+        "Close one of the two, or pair this station again";
 }
 
 void BrokerLine::Shared::hear(const mosquitto_message& message) {
@@ -206,10 +214,6 @@ Client BrokerLine::Shared::connecting() {
   mosquitto_connect_v5_callback_set(
       one, [](mosquitto* c, void* self, int reason, int, const mosquitto_property*) {
         of(self).hello(c, reason);
-      });
-  mosquitto_disconnect_v5_callback_set(
-      one, [](mosquitto*, void* self, int reason, const mosquitto_property*) {
-        of(self).goodbye(reason);
       });
   mosquitto_publish_v5_callback_set(
       one, [](mosquitto*, void* self, int number, int reason, const mosquitto_property*) {
@@ -305,6 +309,7 @@ void BrokerLine::Shared::run() {
     int result = mosquitto_connect_bind_v5(client.get(), wish.access.host.c_str(), wish.access.port,
                                            kKeepAlive, nullptr, nullptr);
     if (result == MOSQ_ERR_SUCCESS) result = speak(client.get());
+    countBriefLines();
     rest = open && refused.empty() ? kFirstRest : std::min(2 * rest, kLongestRest);
     takeBack();
     std::unique_lock lock(mutex);

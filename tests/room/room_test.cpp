@@ -213,7 +213,8 @@ TEST_F(RoomOfStations, WhatIsAskedWithoutABrokerIsNotDoneLater) {
 TEST_F(RoomOfStations, TwoByOneNameAreTold) {
   const Pairing both = pairing("one");
   const auto first = station(both), second = station(both);
-  EXPECT_TRUE(soon([&] { return says(*first, "another console") || says(*second, "another"); }));
+  EXPECT_TRUE(soon([&] { return says(*first, "another console") || says(*second, "another"); }))
+      << first->state().trouble << " | " << second->state().trouble;
 }
 
 TEST_F(RoomOfStations, NothingIsKeptTwiceOrOutOfOrder) {
