@@ -97,7 +97,7 @@ struct BrokerLine::Shared {
 
   // Of the line's thread alone.
   std::deque<std::pair<int, Waiting>> under_way;  ///< with the library's numbers
-  bool open = false;
+  bool open = false, greeted = false;
   runtime::ServingClock::time_point opened_at{};
   int brief = 0;  ///< lines in a row that were lost soon after they stood
   std::string log, refused;
@@ -118,7 +118,8 @@ struct BrokerLine::Shared {
   void takeBack();
 
   static Shared& of(void* self) { return *static_cast<Shared*>(self); }
-  void hello(mosquitto* client, int reason);
+  void hello(int reason);
+  void greet(mosquitto* client);
   void countBriefLines();
   void hear(const mosquitto_message& message);
   void taken(int number, int reason);
@@ -146,14 +147,16 @@ void BrokerLine::Shared::settle(bool stands, const std::string& trouble) {
 }
 
 /// The broker has taken us, or says why not.
-void BrokerLine::Shared::hello(mosquitto* client, int reason) {
-  if (reason != 0) {
-    refused = std::string("refused this computer: ") + mosquitto_reason_string(reason);
-    return;
-  }
-  open = true;
+void BrokerLine::Shared::hello(int reason) {
+  open = reason == 0;
   opened_at = runtime::ServingClock::now();
-  settle(true, "");
+  if (open) return settle(true, "");
+  refused = std::string("refused this computer: ") + mosquitto_reason_string(reason);
+}
+
+/// Not within the library's call: it holds locks of its own there.
+void BrokerLine::Shared::greet(mosquitto* client) {
+  greeted = true;
   for (const std::string& topic : wish.topics)
     mosquitto_subscribe_v5(client, nullptr, topic.c_str(), kQos, 0, nullptr);
   const std::lock_guard lock(telling);
@@ -211,10 +214,8 @@ Client BrokerLine::Shared::connecting() {
   if (!will.topic.empty())
     mosquitto_will_set_v5(one, will.topic.c_str(), static_cast<int>(will.words.size()),
                           will.words.data(), kQos, will.retained, nullptr);
-  mosquitto_connect_v5_callback_set(
-      one, [](mosquitto* c, void* self, int reason, int, const mosquitto_property*) {
-        of(self).hello(c, reason);
-      });
+  mosquitto_connect_v5_callback_set(one, [](mosquitto*, void* self, int reason, int,
+                                            const mosquitto_property*) { of(self).hello(reason); });
   mosquitto_publish_v5_callback_set(
       one, [](mosquitto*, void* self, int number, int reason, const mosquitto_property*) {
         of(self).taken(number, reason);
@@ -277,6 +278,7 @@ bool BrokerLine::Shared::done() {
 int BrokerLine::Shared::speak(mosquitto* client) {
   int result = MOSQ_ERR_SUCCESS;
   while (result == MOSQ_ERR_SUCCESS && refused.empty()) {
+    if (open && !greeted) greet(client);
     send(client);
     if (done()) {
       mosquitto_disconnect_v5(client, 0, nullptr);
@@ -302,7 +304,7 @@ void BrokerLine::Shared::run() {
   os::giveWay();
   milliseconds rest = kFirstRest;
   for (;;) {
-    open = false;
+    open = greeted = false;
     log.clear();
     refused.clear();
     const Client client = connecting();
