@@ -159,11 +159,14 @@ void BrokerLine::Shared::greet(mosquitto* client) {
   greeted = true;
   for (const std::string& topic : wish.topics)
     mosquitto_subscribe_v5(client, nullptr, topic.c_str(), kQos, 0, nullptr);
-  const std::lock_guard lock(telling);
-  if (deaf || !wish.greets) return;
-  for (Said& said : wish.greets()) {
+  std::vector<Said> greeting;
+  {
+    const std::lock_guard lock(telling);
+    if (!deaf && wish.greets) greeting = wish.greets();
+  }
+  for (Said& said : greeting) {
     {
-      const std::lock_guard also(mutex);
+      const std::lock_guard lock(mutex);
       forgetOlder(&waiting, said);
     }
     say(client, Waiting(std::move(said)));
