@@ -32,12 +32,16 @@ void beginLibrary() {
   os::surviveBrokenConnections();
 }
 
+constexpr char kNotThatOne[] = "certificate verify failed";
+constexpr char kNotOurs[] =
+    "refused this computer's certificate, which is over or of another room: pair it again";
+
 /// What OpenSSL says at either end, in words that help.
 std::string whyNoTls(const std::string& log) {
   const auto has = [&log](const char* words) { return log.find(words) != std::string::npos; };
   if (has("alert certificate expired") || has("alert unknown ca") || has("alert bad certificate"))
-    return "refused this computer's certificate, which is over or of another room: pair it again";
-  if (has("certificate verify failed"))
+    return kNotOurs;
+  if (has(kNotThatOne))
     return "is not the one of this room, or its certificate is over: look whether the address is "
            "right, and pair anew";
   return "did not agree on encryption (" + (log.empty() ? "no reason given" : log) + ")";
@@ -313,7 +317,12 @@ void BrokerLine::Shared::run() {
     const Client client = connecting();
     int result = mosquitto_connect_bind_v5(client.get(), wish.access.host.c_str(), wish.access.port,
                                            kKeepAlive, nullptr, nullptr);
-    if (result == MOSQ_ERR_SUCCESS) result = speak(client.get());
+    if (result == MOSQ_ERR_SUCCESS) {
+      result = speak(client.get());
+      // Its word why may be lost with the line, on which we have begun to talk meanwhile.
+      if (!open && refused.empty() && log.find(kNotThatOne) == std::string::npos)
+        refused = kNotOurs;
+    }
     countBriefLines();
     rest = open && refused.empty() ? kFirstRest : std::min(2 * rest, kLongestRest);
     takeBack();
