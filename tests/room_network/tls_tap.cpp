@@ -1,5 +1,6 @@
-// tls_tap INTERFACE: listens in until SIGTERM, then says what went by, in a line. Exit code 0: TCP
-// only, and in it TLS records only (RFC 8446, 5.1) from the first byte of each connection on.
+// tls_tap INTERFACE: listens in until SIGTERM, then says what went by, in a line. Exit code 0:
+// beside ARP and ICMP nothing but TCP over IPv4, and in it TLS records only (RFC 8446, 5.1) from
+// the first byte of each connection on.
 #include <linux/if_ether.h>
 #include <linux/if_packet.h>
 #include <net/if.h>
@@ -30,7 +31,11 @@ class Flow {
       begun_ = true;
       return;
     }
-    if (!begun_ || count == 0) return;  // a connection of before we listened
+    if (count == 0) return;
+    if (!begun_) {
+      plain = "a connection whose beginning was not heard";
+      return;
+    }
     waiting_[sequence] = {bytes, bytes + count};
     for (auto at = waiting_.begin(); at != waiting_.end();) {
       const auto ahead = static_cast<std::int32_t>(next_ - at->first);
@@ -79,7 +84,13 @@ using Ends = std::tuple<std::uint32_t, std::uint16_t, std::uint32_t, std::uint16
 
 struct Wire {
   std::map<Ends, Flow> flows;
-  std::size_t others = 0;  ///< IPv4 packets that are no TCP
+  std::size_t others = 0;  ///< packets with content that are no TCP over IPv4
+
+  /// Neighbours greet each other (ICMPv6, also behind options); nothing else is expected.
+  void take6(const std::uint8_t* bytes) {
+    constexpr int kNextHeader = 6, kOptions = 0;
+    if (bytes[kNextHeader] != IPPROTO_ICMPV6 && bytes[kNextHeader] != kOptions) ++others;
+  }
 
   void take(const std::uint8_t* bytes, std::size_t count) {
     iphdr ip{};
@@ -142,6 +153,7 @@ int main(int count, char** arguments) {
     socklen_t length = sizeof from;
     const ssize_t size =
         recvfrom(tap, packet.data(), packet.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
+    if (size > 0 && from.sll_protocol == htons(ETH_P_IPV6)) wire.take6(packet.data());
     if (size > 0 && from.sll_protocol == htons(ETH_P_IP))
       wire.take(packet.data(), static_cast<std::size_t>(size));
   }
