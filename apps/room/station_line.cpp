@@ -97,7 +97,8 @@ int StationLine::beginnings() const {
 /// With the mutex held.
 bool StationLine::missesWhatIsNotUnderWay() const {
   return std::any_of(told_.begin(), told_.end(), [&](const auto& one) {
-    const auto& [record, told] = one;
+    const std::string& record = one.first;
+    const Told& told = one.second;
     const std::int64_t heard = heard_->of(told.session, record);
     if (told.session <= heard_->beyond || told.number <= heard) return false;
     return std::none_of(under_way_.begin(), under_way_.end(), [&](const Happening& h) {

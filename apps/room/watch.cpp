@@ -205,7 +205,7 @@ std::optional<Answer> RoomWatch::ask(const std::string& station, const Ask& ask,
   waited_for_[ask.id] = std::nullopt;
   line_.say({topicOf(station, Topic::asks), wire(toJson(ask)), false, patience});
   answered_.wait_for(lock, patience, [&] { return waited_for_[ask.id].has_value(); });
-  const std::optional<Answer> answer = waited_for_[ask.id];
+  std::optional<Answer> answer = waited_for_[ask.id];
   waited_for_.erase(ask.id);
   return answer;
 }
