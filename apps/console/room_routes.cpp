@@ -88,7 +88,9 @@ void sendPictureOf(Console& c, const std::string& name, httplib::Response& r) {
   const auto found = stations.find(name);
   if (found == stations.end() || !found->second.about) return refuse(r, 404, "is not in the room");
   const std::string picture = pictureOf(*found->second.about);
-  if (picture.empty()) return refuse(r, 404, "has no picture to show now");
+  r.status = 204;  // nothing to show now is no error
+  if (picture.empty()) return;
+  r.status = 200;
   r.set_content(picture, "image/jpeg");
 }
 

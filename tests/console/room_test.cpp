@@ -146,7 +146,8 @@ TEST_F(ConsoleInARoom, TheOneThatWatchesShowsWhatItHearsAndPassesOnWhatIsAsked) 
   EXPECT_EQ(told["error"], "one: never");
   EXPECT_EQ(station_->post("/api/room/one/ask", {{"ask", "start"}, {"session", "s"}}), 422);
   EXPECT_EQ(station_->post("/api/room/two/ask", {{"ask", "pause"}, {"session", "s"}}), 404);
-  EXPECT_EQ(station_->client().Get("/api/room/one/picture")->status, 404);
+  EXPECT_EQ(station_->client().Get("/api/room/one/picture")->status, 204);
+  EXPECT_EQ(station_->client().Get("/api/room/two/picture")->status, 404);
 }
 
 TEST_F(ConsoleInARoom, AStationWhoseFileIsDamagedStartsAloneAndSaysSo) {

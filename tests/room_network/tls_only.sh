@@ -78,7 +78,8 @@ soon "the station did not come" stands '"present":true'
 expert='{"ask":"prepare","session":"","wish":{"task":"paracentesis","operator":"expert"}}'
 soon "no session was prepared" ask "$expert"
 soon "no trial ran" stands '"state":"running"'
-soon "no picture came" get /api/room/one/picture
+picture() { [ "$(get /api/room/one/picture | head -c 2 | od -An -tx1)" = " ff d8" ]; }
+soon "no picture came" picture
 ask "{\"ask\":\"pause\",\"session\":\"$(session)\"}" >/dev/null || fail "it was not paused"
 ask "{\"ask\":\"stop\",\"session\":\"$(session)\"}" >/dev/null || fail "it was not stopped"
 soon "the stop was not told" stands '"emergency_stop":true'
