@@ -95,7 +95,7 @@ RoomStation::RoomStation(Console& console, const room::Pairing& pairing, const s
       pairing_(pairing),
       picture_key_(randomKey()),
       line_(pairing, {url, authority, picture_key_, console.place.version},
-            [this](const Ask& ask) { return obey(ask); }) {
+            [this](const Ask& ask) { return handle(ask); }) {
   thread_ = os::startThread([this] { run(); });
 }
 
@@ -200,7 +200,7 @@ void RoomStation::readOf(const std::string& id) {
 /// waiting. True: there was one to look at.
 bool RoomStation::readNext() {
   constexpr std::chrono::hours kClocksDiffer{1};
-  const std::string id = console_.sessions.firstUntold(done_);
+  const std::string id = console_.sessions.firstUntold(&done_);
   if (id.empty()) return false;
   done_.insert(id);  // whatever comes of it
   const auto began = utcSecondsOf(console_.sessions.startOf(id));
@@ -239,7 +239,7 @@ void RoomStation::beginAgain() {
 }
 
 /// Nothing here begins force: a session that was prepared waits for a key or a button here.
-Answer RoomStation::obey(const Ask& ask) {
+Answer RoomStation::handle(const Ask& ask) {
   if (ask.what == Ask::What::prepare) {
     SessionWish wish = readWish(ask.wish);
     wish.film = false;  // who trains agrees at the station

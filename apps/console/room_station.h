@@ -38,7 +38,7 @@ class RoomStation {
   bool readNext();
   void readOf(const std::string& id);
   void beginAgain();
-  room::Answer obey(const room::Ask& ask);
+  room::Answer handle(const room::Ask& ask);
 
   Console& console_;
   const room::Pairing pairing_;

@@ -291,11 +291,13 @@ std::string Sessions::running() {
   return "";
 }
 
-std::string Sessions::firstUntold(const std::set<std::string>& known) {
+std::string Sessions::firstUntold(std::set<std::string>* done) {
   const std::string on = running();
-  for (std::string& id : idsIn(place_.sessions()))
-    if (id != on && !known.contains(id) && !factsOf(place_.sessions() / id).value(kTold, false))
-      return std::move(id);
+  for (std::string& id : idsIn(place_.sessions())) {
+    if (id == on || done->contains(id)) continue;
+    if (!factsOf(place_.sessions() / id).value(kTold, false)) return std::move(id);
+    done->insert(std::move(id));
+  }
   return "";
 }
 

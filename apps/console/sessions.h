@@ -62,9 +62,10 @@ class Sessions {
   std::shared_ptr<SessionLink> linkForStop(const std::string& id) const;
   std::string running();  ///< id; empty: none runs
   bool oneRuns() { return !running().empty(); }
-  /// The oldest of all that are over and of which the room has not heard all, but for those that
-  /// are known; empty: none. And that it has heard all of one.
-  std::string firstUntold(const std::set<std::string>& known);
+  /// The oldest of all that are over and of which the room has not heard all; empty: none. Those
+  /// that are done are passed over, and those found to be are added. And that it has heard all of
+  /// one.
+  std::string firstUntold(std::set<std::string>* done);
   void markTold(const std::string& id);
   bool has(const std::string& id) const;
   std::string startOf(const std::string& id) const;  ///< UTC; throws Error where that is not known

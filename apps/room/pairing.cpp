@@ -34,13 +34,8 @@ std::string hex8() {
   return text;
 }
 
-os::Identity heldAs(const fs::path& folder, const std::string& name) {
-  return {readWhole(folder / (name + ".pem")).value_or(""),
-          readWhole(folder / (name + ".key")).value_or("")};
-}
-
 os::Identity authorityIn(const fs::path& folder) {
-  os::Identity authority = heldAs(folder, "authority");
+  os::Identity authority = os::heldIdentity(folder, "authority");
   if (!os::belongTogether(authority))
     throw UsageError("holds no authority", folder.string(),
                      "Make the room again: palpa console pair STATION --broker HOST");
@@ -207,7 +202,7 @@ void Room::write() const {
 }
 
 BrokerAccess Room::access(const os::Identity& identity) const {
-  return {host_, port_, heldAs(folder_, "authority").certificate, identity};
+  return {host_, port_, os::heldIdentity(folder_, "authority").certificate, identity};
 }
 
 Pairing Room::pair(const std::string& station, std::chrono::sys_seconds now,
@@ -234,14 +229,13 @@ bool Room::forget(const std::string& station) {
 
 BrokerAccess Room::watcher(std::chrono::sys_seconds now) const {
   const os::Identity authority = authorityIn(folder_);
-  os::Identity own = heldAs(folder_, kWatcher);
+  os::Identity own = os::heldIdentity(folder_, kWatcher);
   if (!os::belongTogether(own) ||
       !os::isVouchedFor(own.certificate, authority.certificate, now + days(30))) {
     own = os::makeIdentity(
         {.name = kWatcher, .reached_by = {}, .purpose = os::Purpose::client, .lasts = kLasts},
         authority, now);
-    writeWhole(folder_ / (std::string(kWatcher) + ".key"), own.key, Lasts::yes, Readers::owner);
-    writeWhole(folder_ / (std::string(kWatcher) + ".pem"), own.certificate);
+    os::holdIdentity(folder_, kWatcher, own);
   }
   return access(own);
 }

@@ -30,10 +30,10 @@ Said lastWill(const std::string& station) {
 }  // namespace
 
 StationLine::StationLine(const Pairing& pairing, const StationFacts& facts,
-                         std::function<Answer(const Ask&)> obeys)
+                         std::function<Answer(const Ask&)> handles)
     : station_(pairing.station),
       facts_(facts),
-      obeys_(std::move(obeys)),
+      handles_(std::move(handles)),
       patience_(kFirstPatience),
       line_({.access = pairing.broker,
              .last_will = lastWill(pairing.station),
@@ -140,7 +140,7 @@ void StationLine::hearsOf(const Heard& heard) {
   }
 }
 
-void StationLine::obey(const Ask& ask) {
+void StationLine::handle(const Ask& ask) {
   {
     const std::lock_guard lock(mutex_);
     if (std::find(asked_.begin(), asked_.end(), ask.id) != asked_.end()) return;
@@ -149,7 +149,7 @@ void StationLine::obey(const Ask& ask) {
   }
   Answer answer{ask.id, false, ""};
   try {
-    answer = obeys_(ask);
+    answer = handles_(ask);
     answer.id = ask.id;
   } catch (const std::exception& e) {
     answer.words = e.what();
@@ -163,7 +163,7 @@ void StationLine::hears(const Said& said) {
   try {
     if (addressed->topic == Topic::heard) hearsOf(heardIn(said.words));
     // What somebody asked for before we were here is not what he asks for now.
-    if (addressed->topic == Topic::asks && !said.retained) obey(askIn(said.words));
+    if (addressed->topic == Topic::asks && !said.retained) handle(askIn(said.words));
   } catch (const Error&) {  // nobody of this room speaks so
   }
 }

@@ -18,9 +18,9 @@ namespace palpa::room {
 /// it: a broker that dies loses nothing. Until then it is told again. Any thread.
 class StationLine {
  public:
-  /// `obeys`: does what is asked; on the line's thread.
+  /// `handles`: does what is asked; on the line's thread.
   StationLine(const Pairing& pairing, const StationFacts& facts,
-              std::function<Answer(const Ask&)> obeys);
+              std::function<Answer(const Ask&)> handles);
   ~StationLine();
   StationLine(const StationLine&) = delete;
   StationLine& operator=(const StationLine&) = delete;
@@ -47,14 +47,14 @@ class StationLine {
   std::vector<Said> greeting();
   void hears(const Said& said);
   void hearsOf(const Heard& heard);
-  void obey(const Ask& ask);
+  void handle(const Ask& ask);
   void tellAgain();
   bool missesWhatIsNotUnderWay() const;
   Said said(Topic topic, const nlohmann::json& message, bool retained) const;
 
   const std::string station_;
   const StationFacts facts_;
-  const std::function<Answer(const Ask&)> obeys_;
+  const std::function<Answer(const Ask&)> handles_;
   mutable std::mutex mutex_;
   StationState shown_;
   Time shown_at_{};

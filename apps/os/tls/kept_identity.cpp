@@ -15,17 +15,6 @@ namespace fs = std::filesystem;
 using std::chrono::days;
 constexpr days kAuthorityLasts{3650}, kRenewedBefore{30};
 
-/// What `name`.pem and .key hold; empty where there is none.
-Identity held(const fs::path& folder, const std::string& name) {
-  return {readWhole(folder / (name + ".pem")).value_or(""),
-          readWhole(folder / (name + ".key")).value_or("")};
-}
-
-void hold(const fs::path& folder, const std::string& name, const Identity& identity) {
-  writeWhole(folder / (name + ".key"), identity.key, Lasts::yes, Readers::owner);
-  writeWhole(folder / (name + ".pem"), identity.certificate);
-}
-
 std::chrono::sys_seconds endOf(const Identity& identity) {
   return factsOf(identity.certificate, "the certificate").until;
 }
@@ -43,11 +32,21 @@ bool isAsWished(const Identity& own, const IdentityWish& wish, const Identity& a
 
 }  // namespace
 
+Identity heldIdentity(const fs::path& folder, const std::string& name) {
+  return {readWhole(folder / (name + ".pem")).value_or(""),
+          readWhole(folder / (name + ".key")).value_or("")};
+}
+
+void holdIdentity(const fs::path& folder, const std::string& name, const Identity& identity) {
+  writeWhole(folder / (name + ".key"), identity.key, Lasts::yes, Readers::owner);
+  writeWhole(folder / (name + ".pem"), identity.certificate);
+}
+
 KeptIdentity keptIdentity(const fs::path& folder, const IdentityWish& wish,
                           std::chrono::sys_seconds now) {
   if (const std::error_code problem = makeFolders(folder))
     failFile("cannot be used", folder, problem, "Look whether this user may write there");
-  Identity authority = held(folder, "authority"), own = held(folder, "own");
+  Identity authority = heldIdentity(folder, "authority"), own = heldIdentity(folder, "own");
   bool is_new = !belongTogether(authority) || endOf(authority) < now + wish.lasts;
   if (!is_new && isAsWished(own, wish, authority, now)) return {own, folder / "authority.pem"};
   if (!is_new) {
@@ -57,9 +56,9 @@ KeptIdentity keptIdentity(const fs::path& folder, const IdentityWish& wish,
   if (is_new) {
     authority = makeAuthority("Authority of " + wish.name, wish.reached_by, kAuthorityLasts, now);
     own = makeIdentity(wish, authority, now);
-    hold(folder, "authority", authority);
+    holdIdentity(folder, "authority", authority);
   }
-  hold(folder, "own", own);
+  holdIdentity(folder, "own", own);
   return {std::move(own), folder / "authority.pem", is_new};
 }
 

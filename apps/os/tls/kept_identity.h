@@ -21,6 +21,12 @@ struct KeptIdentity {
 KeptIdentity keptIdentity(const std::filesystem::path& folder, const IdentityWish& wish,
                           std::chrono::sys_seconds now);
 
+/// What `name`.pem and `name`.key in a folder hold; empty where there is none. And writing both,
+/// the key for its owner alone. Throws Error.
+Identity heldIdentity(const std::filesystem::path& folder, const std::string& name);
+void holdIdentity(const std::filesystem::path& folder, const std::string& name,
+                  const Identity& identity);
+
 /// From two files. Throws UsageError where one cannot be read, the key can be read by others, they
 /// are no pair, or what they say is over.
 Identity identityIn(const std::filesystem::path& certificate, const std::filesystem::path& key,

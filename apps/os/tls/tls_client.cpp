@@ -34,7 +34,7 @@ void show(SSL_CTX* context, const Identity& identity) {
   const openssl::Certificate own = openssl::certificateIn(identity.certificate);
   if (!own || !belongTogether(identity) || SSL_CTX_use_certificate(context, own.get()) != 1 ||
       SSL_CTX_use_PrivateKey(context, openssl::keyIn(identity.key).get()) != 1)
-    throw UsageError("do not belong together, or are none (" + openssl::trouble() + ")",
+    throw UsageError("do not belong together, or cannot be read (" + openssl::trouble() + ")",
                      "certificate and key", "Have them made again");
 }
 
