@@ -21,8 +21,10 @@ namespace {
 using std::chrono::milliseconds;
 constexpr int kQos = 1, kKeepAlive = 10;  // s
 constexpr std::size_t kUnderWay = 20;     // said and not taken yet
-constexpr int kRefused = 128;             // MQTT 5: reason codes from here on
 constexpr milliseconds kStep{100}, kFirstRest{1000}, kLongestRest{15000}, kEnding{2000};
+
+/// MQTT 5: reason codes from 128 on.
+bool isRefusal(int reason) { return reason >= 128; }
 
 /// Once a program, never undone.
 void beginLibrary() {
@@ -124,6 +126,7 @@ struct BrokerLine::Shared {
   static Shared& of(void* self) { return *static_cast<Shared*>(self); }
   void hello(int reason);
   void greet(mosquitto* client);
+  void listens(const std::vector<int>& reasons);
   void countBriefLines();
   void hear(const mosquitto_message& message);
   void taken(int number, int reason);
@@ -154,15 +157,28 @@ void BrokerLine::Shared::settle(bool stands, const std::string& trouble) {
 void BrokerLine::Shared::hello(int reason) {
   open = reason == 0;
   opened_at = runtime::ServingClock::now();
-  if (open) return settle(true, "");
-  refused = std::string("refused this computer: ") + mosquitto_reason_string(reason);
+  if (!open)
+    refused = std::string("refused this computer: ") + mosquitto_reason_string(reason);
+  else if (wish.topics.empty())
+    settle(true, "");
+}
+
+/// From here on nothing of our topics passes us by, or the broker says why not.
+void BrokerLine::Shared::listens(const std::vector<int>& reasons) {
+  const auto bad = std::find_if(reasons.begin(), reasons.end(), isRefusal);
+  if (bad == reasons.end()) return settle(true, "");
+  refused = std::string("refuses to tell this computer what it needs to hear (") +
+            mosquitto_reason_string(*bad) + "): pair it again";
 }
 
 /// Not within the library's call: it holds locks of its own there.
 void BrokerLine::Shared::greet(mosquitto* client) {
   greeted = true;
-  for (const std::string& topic : wish.topics)
-    mosquitto_subscribe_v5(client, nullptr, topic.c_str(), kQos, 0, nullptr);
+  std::vector<char*> topics;  // the library changes none of them
+  for (const std::string& topic : wish.topics) topics.push_back(const_cast<char*>(topic.c_str()));
+  if (!topics.empty())
+    mosquitto_subscribe_multiple(client, nullptr, static_cast<int>(topics.size()), topics.data(),
+                                 kQos, 0, nullptr);
   std::vector<Said> greeting;
   {
     const std::lock_guard lock(telling);
@@ -202,7 +218,7 @@ void BrokerLine::Shared::taken(int number, int reason) {
   const auto found = std::find_if(under_way.begin(), under_way.end(),
                                   [number](const auto& one) { return one.first == number; });
   if (found == under_way.end()) return;
-  if (reason >= kRefused)
+  if (isRefusal(reason))
     refused = "refused what was said about " + found->second.said.topic + " (" +
               mosquitto_reason_string(reason) +
               "): let it read its files again (HUP), or pair this station again";
@@ -227,6 +243,10 @@ Client BrokerLine::Shared::connecting() {
       one, [](mosquitto*, void* self, int number, int reason, const mosquitto_property*) {
         of(self).taken(number, reason);
       });
+  mosquitto_subscribe_v5_callback_set(one, [](mosquitto*, void* self, int, int count,
+                                              const int* reasons, const mosquitto_property*) {
+    of(self).listens({reasons, reasons + count});
+  });
   mosquitto_message_v5_callback_set(
       one, [](mosquitto*, void* self, const mosquitto_message* message, const mosquitto_property*) {
         of(self).hear(*message);

@@ -54,7 +54,7 @@ class BrokerLine {
   static constexpr std::size_t kMostWaiting = 1000;
 
   struct State {
-    bool stands = false;
+    bool stands = false;  ///< the broker tells us whatever is said in our topics from here on
     std::string trouble;  ///< why it does not, or what the broker refused, and what to do about it
   };
   State state() const;

@@ -60,7 +60,7 @@ void StationLine::show(StationState state) {
   if (now - shown_at_ < (same ? milliseconds(kSaidAnyhow) : kShownApart)) return;
   shown_ = std::move(state);
   shown_at_ = now;
-  if (line_.state().stands) line_.say(said(Topic::state, toJson(shown_), true));
+  line_.say(said(Topic::state, toJson(shown_), true));
 }
 
 std::optional<bool> StationLine::wants(const std::string& session) const {

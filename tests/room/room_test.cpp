@@ -219,6 +219,7 @@ TEST_F(RoomOfStations, TwoByOneNameAreTold) {
 
 TEST_F(RoomOfStations, NothingIsKeptTwiceOrOutOfOrder) {
   const auto watch = this->watch();
+  ASSERT_TRUE(soon([&] { return watch->broker().stands; }));  // nobody says these words again
   BrokerLine line(
       {.access = pairing("one").broker, .last_will = {}, .topics = {}, .greets = {}, .hears = {}});
   const auto say = [&](const Happening& h) {
