@@ -191,11 +191,13 @@ std::int64_t Heard::of(const std::string& session, const std::string& record) co
   return found == its->second.end() ? -1 : found->second;
 }
 
-json toJson(const Heard& h) { return {{"beyond", h.beyond}, {"sessions", h.sessions}}; }
+json toJson(const Heard& h) {
+  return {{"beyond", h.beyond}, {"since", h.since}, {"sessions", h.sessions}};
+}
 
 Heard heardIn(std::string_view text) {
   const Message m(text);
-  Heard heard{m.id("beyond", true), {}};
+  Heard heard{m.id("beyond", true), m.id("since", true), {}};
   const json sessions = m.file().json().value("sessions", json());
   if (!sessions.is_object()) m.file().refuse("sessions", "is no list of sessions");
   for (const auto& [session, records] : sessions.items()) {

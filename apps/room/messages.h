@@ -80,6 +80,7 @@ Happening happeningIn(std::string_view text);
 /// Up to where a station's events have come.
 struct Heard {
   std::string beyond;  ///< of sessions with an id up to this one nothing more is wanted
+  std::string since;   ///< another one: he listens anew, and what was said meanwhile passed him by
   /// Of each session: the newest number of each of its records.
   std::map<std::string, std::map<std::string, std::int64_t>> sessions;
 

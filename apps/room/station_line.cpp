@@ -124,6 +124,7 @@ void StationLine::tellAgain() {
 void StationLine::hearsOf(const Heard& heard) {
   const std::lock_guard lock(mutex_);
   const std::size_t before = under_way_.size();
+  const bool listens_anew = heard_ && heard_->since != heard.since;
   heard_ = heard;
   std::erase_if(under_way_, [&](const Happening& one) {
     return one.session <= heard.beyond || one.number <= heard.of(one.session, one.record);
@@ -133,10 +134,12 @@ void StationLine::hearsOf(const Heard& heard) {
     told_.clear();
     under_way_.clear();
     ++beginnings_;
+  } else if (listens_anew) {
+    tellAgain();
   } else if (under_way_.size() < before) {
     moved_ = ServingClock::now();
   } else if (!under_way_.empty() && ServingClock::now() - moved_ > seconds(1)) {
-    tellAgain();  // he has begun anew, or one was lost on the way
+    tellAgain();  // one was lost on the way
   }
 }
 

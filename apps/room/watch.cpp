@@ -32,7 +32,9 @@ std::vector<std::string> everyTopic() {
   return all;
 }
 
-Said heardWords(const std::string& station, const Heard& heard) {
+/// To a station: up to where he has its events, and since when he listens.
+Said heardWords(const std::string& station, Heard heard, const std::string& since) {
+  heard.since = since;
   return {topicOf(station, Topic::heard), wire(toJson(heard)), true};
 }
 
@@ -98,8 +100,9 @@ void RoomWatch::note(Known* known, const Kept& kept) {
 /// Stations that were here before; those that come say so themselves.
 std::vector<Said> RoomWatch::greeting() {
   const std::lock_guard lock(mutex_);
+  since_ = std::to_string(runtime::ServingClock::now().time_since_epoch().count());
   std::vector<Said> all;
-  for (const auto& [name, known] : stations_) all.push_back(heardWords(name, known.heard));
+  for (const auto& [name, known] : stations_) all.push_back(heardWords(name, known.heard, since_));
   return all;
 }
 
@@ -146,7 +149,7 @@ void RoomWatch::take(const std::string& station, const Happening& happening) {
     note(&known, kept);
     ++known.events;
   }
-  line_.say(heardWords(station, known.heard));
+  line_.say(heardWords(station, known.heard, since_));
 }
 
 void RoomWatch::hears(const Said& said) {
@@ -158,7 +161,7 @@ void RoomWatch::hears(const Said& said) {
     switch (addressed->topic) {
       case Topic::about:
         stations_[station].about = stationFactsIn(said.words);
-        line_.say(heardWords(station, stations_[station].heard));
+        line_.say(heardWords(station, stations_[station].heard, since_));
         break;
       case Topic::state:
         stations_[station].state = stationStateIn(said.words);

@@ -68,6 +68,7 @@ class RoomWatch {
   std::condition_variable answered_;
   std::map<std::string, Known> stations_;
   std::map<std::string, std::optional<Answer>> waited_for_;
+  std::string since_;  ///< when the line stood anew, as a number that no other time has
   std::string trouble_;
   BrokerLine line_;  ///< last: its thread uses the rest
 };

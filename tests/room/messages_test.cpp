@@ -50,7 +50,7 @@ TEST(RoomMessages, AreReadAsTheyAreWritten) {
   again(someState(), stationStateIn);
   again(goneWithoutAWord(), stationStateIn);
   again(someEvent(), happeningIn);
-  again(Heard{"20260301-100000-aa", {{"20260301-100000-ab", {{"0f-1", 7}, {"0f-2", 0}}}}}, heardIn);
+  again(Heard{"20260301-100000-aa", "7", {{"20260301-100000-ab", {{"0f-1", 7}, {"0f-2", 0}}}}}, heardIn);
   again(Ask{"q1", "", Ask::What::prepare, {{"task", "subclavian"}}}, askIn);
   again(Answer{"q1", false, "one is running already"}, answerIn);
 }
@@ -89,7 +89,7 @@ TEST(RoomMessages, DamagedOnesAreReadOrRefused) {
   palpa::test::DamageDice dice(7);
   const std::string messages[] = {
       wire(toJson(someState())), wire(toJson(someEvent())),
-      wire(toJson(Heard{"a", {{"b", {{"c", 7}}}}})),
+      wire(toJson(Heard{"a", "", {{"b", {{"c", 7}}}}})),
       wire(toJson(Ask{"q1", "", Ask::What::prepare, {{"task", "subclavian"}}}))};
   int read = 0;
   for (int i = 0; i < count; ++i) {
