@@ -204,7 +204,7 @@ void writeFramed(const PageFrame& frame, const std::function<void(Html&)>& top,
     const auto in_main = html.in("main");
     main(html);
   }
-  writeWhole(file, html.str() + "\n");
+  writeWhole(file, html.page() + "\n");
 }
 
 void writeFact(Html& html, const std::string& name, const std::string& value,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/spoken_output.h"
 #include "apps/cli/usage_words.h"
 #include "apps/os/signals.h"
 #include "apps/session/force_guard.h"
@@ -46,10 +47,12 @@ int main(int argc, char** argv) {
   try {
     std::vector<std::string> words(argv + 1, argv + argc);
     verbose = takeVerbose(&words);
+    const std::string language = palpa::cli::takeLanguage(&words);
     palpa::os::letLargeFilesFail();
     cv::setNumThreads(1);  // results must not depend on the number of cores
     if (!verbose) quietLibraries();
     if (palpa::session::isGuard(words)) return palpa::session::standGuard(words);
+    palpa::cli::speakTo(words, language);
     return palpa::cli::runCommand(std::move(words));
   } catch (...) {
     return tellFailure();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 
 #include "apps/cli/command_tree.h"
 #include "apps/cli/commands.h"
@@ -32,6 +33,14 @@ A session leaves its results in out/<command>-<time>/: open report.html first.
 `palpa <command> --help` explains a command with examples.
 )";
 
+/// Help, or the version: on the terminal as everything else.
+int answerOf(const CLI::App& program, const CLI::ParseError& asked) {
+  std::ostringstream text;
+  const int code = program.exit(asked, text, text);
+  std::fputs(text.str().c_str(), stdout);
+  return code;
+}
+
 }  // namespace
 
 void addCommands(CLI::App& program) {
@@ -41,6 +50,11 @@ void addCommands(CLI::App& program) {
   program.set_version_flag("--version", "palpa " PALPA_VERSION);
   program.add_flag("--verbose")
       ->description("Anywhere: when something fails, tell as well what a library said of it");
+  program.add_option("--language")
+      ->type_name("CODE")
+      ->description(
+          "Anywhere: the language of window, pages and terminal: en, el, ko, de, fr, es, pt "
+          "(default: as LANG says; files are always written the same)");
   program.footer(
       "Examples:\n  palpa subclavian --operator expert --seed 1 --fast --out A\n"
       "  palpa subclavian --help");
@@ -81,7 +95,7 @@ int runCommand(std::vector<std::string> words) {
   try {
     program.parse(std::move(words));
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return program.exit(e);
+    if (e.get_exit_code() == 0) return answerOf(program, e);
     return complain(usageWords(e, program), 2);
   }
   if (!program.get_subcommands().empty()) return 0;

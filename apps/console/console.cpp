@@ -173,16 +173,6 @@ class Serving {
   std::thread thread_;
 };
 
-void addPages(WebServer& server, const Console& c) {
-  server.Get("/", [&c](const httplib::Request&, httplib::Response& r) {
-    sendFile(r, c.place.pages / "index.html", mediaTypeOf(".html"));
-  });
-  server.Get(R"(/static/([a-z0-9_-]{1,40}\.(?:js|css|svg)))",
-             [&c](const httplib::Request& q, httplib::Response& r) {
-               sendFile(r, c.place.pages / q.matches[1].str(), mediaTypeOf(q.matches[1]));
-             });
-}
-
 /// By a name that others reach it by: of a station whose address is any, one must be given.
 std::string urlForRoom(const ConsoleSettings& s, const OpenedConsole& opened,
                        const std::string& broker) {

@@ -88,11 +88,12 @@ void addOwnRoutes(WebServer& server, Console& c) {
     if (trainee.empty()) return answer(r, {{"trainee", ""}, {"sessions", json::array()}});
     answer(r, mine(c, trainee));
   });
-  server.Get(R"(/api/mine/([A-Za-z0-9_-]{1,64})/file/report\.html)", [&c](const httplib::Request& q,
-                                                                          httplib::Response& r) {
-    if (!hasOwn(c, whose(c, q), q.matches[1])) return refuse(r, 404, "is not one of your sessions");
-    sendFile(r, c.sessions.shown(q.matches[1]) / "report.html", "text/html; charset=utf-8");
-  });
+  server.Get(R"(/api/mine/([A-Za-z0-9_-]{1,64})/file/report\.html)",
+             [&c](const httplib::Request& q, httplib::Response& r) {
+               if (!hasOwn(c, whose(c, q), q.matches[1]))
+                 return refuse(r, 404, "is not one of your sessions");
+               sendPage(c, q, r, c.sessions.shown(q.matches[1]) / "report.html");
+             });
 }
 
 }  // namespace palpa::console

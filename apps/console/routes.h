@@ -11,8 +11,10 @@
 #include "apps/console/sessions.h"
 #include "apps/console/stations.h"
 #include "apps/console/web_server.h"
+#include "apps/language/shelf.h"
 #include "apps/live/live_sink.h"
 #include "apps/room/watch.h"
+#include "apps/station/assets.h"
 
 namespace palpa::console {
 
@@ -35,6 +37,7 @@ struct Console {
     nlohmann::json findings;  ///< as `palpa doctor --json` wrote it; null: not yet
     std::string checked_utc, job;
   } health;
+  language::Shelf languages{station::assetFile("languages")};
   Jobs jobs;                               ///< its thread uses what is above until it has ended
   std::filesystem::path room;              ///< folder of the room that it watches
   std::string room_trouble;                ///< why it is in none, although it should be
@@ -53,6 +56,7 @@ void addReplayRoutes(WebServer& server, Console& console);   ///< a trial on one
 void addFilmRoutes(WebServer& server, Console& console);     ///< the film of the room
 void addRoomRoutes(WebServer& server, Console& console);     ///< the other stations, and this one
 void addOwnRoutes(WebServer& server, Console& console);      ///< a trainee's own results
+void addPages(WebServer& server, Console& console);          ///< what a browser loads, languages
 
 void checkHealth(Console& console);
 /// Throws UsageError for what cannot be held here, and where a session runs already.
@@ -61,6 +65,10 @@ std::string beginSession(Console& console, SessionWish wish);
 /// A whole file as an answer; 404 where it is none.
 void sendFile(httplib::Response& response, const std::filesystem::path& file,
               const std::string& type);
+/// The same for a page of ours, in the language of who asks: as his browser says (the cookie that a
+/// choice on our pages sets, else Accept-Language).
+void sendPage(Console& console, const httplib::Request& request, httplib::Response& response,
+              const std::filesystem::path& file);
 /// {"state", "page", "message"} of a job that makes a page.
 nlohmann::json pageOf(const nlohmann::json& job);
 

@@ -179,6 +179,8 @@ void addSessionRoutes(WebServer& server, Console& c) {
              [&c](const httplib::Request& q, httplib::Response& r) {
                const std::string name = q.matches[2];
                if (!isShown(name)) return refuse(r, 404, "is not here");
+               if (name.ends_with(".html"))
+                 return sendPage(c, q, r, c.sessions.shown(q.matches[1]) / name);
                sendFile(r, c.sessions.shown(q.matches[1]) / name, mediaTypeOf(name));
              });
 }

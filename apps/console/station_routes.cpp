@@ -267,7 +267,7 @@ void addStationRoutes(WebServer& server, Console& c) {
              });
   server.Get(R"(/api/pages/([A-Za-z0-9_-]{1,64}))",
              [&c](const httplib::Request& q, httplib::Response& r) {
-               sendFile(r, c.jobs.page(q.matches[1]), "text/html; charset=utf-8");
+               sendPage(c, q, r, c.jobs.page(q.matches[1]));
              });
 }
 

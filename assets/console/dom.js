@@ -1,22 +1,33 @@
-// Elements from text: every string becomes a text node or an attribute, never markup.
+// Elements from text: every string becomes a text node or an attribute, never markup; in the
+// language of whoever reads. What somebody typed stays as it is: translate: "no".
+import { said } from "./language.js";
+
 const kSvg = "http://www.w3.org/2000/svg";
+const kRead = new Set(["title", "alt", "placeholder", "aria-label", "data-head"]);
 
 function fill(node, attributes, children) {
+  const asTyped = attributes?.translate === "no";
   for (const [name, value] of Object.entries(attributes || {})) {
     if (value === null || value === undefined || value === false) continue;
     if (typeof value === "function") node.addEventListener(name.replace(/^on/, ""), value);
     else if (name === "value" || name === "checked") node[name] = value;
-    else node.setAttribute(name, value === true ? "" : String(value));
+    else if (value === true) node.setAttribute(name, "");
+    else node.setAttribute(name, kRead.has(name) && !asTyped ? said(String(value)) : String(value));
   }
-  node.append(...flat(children));
+  node.append(...flat(children, asTyped));
   return node;
 }
 
-function flat(children) {
-  return children
-    .flat(Infinity)
-    .filter((c) => c !== null && c !== undefined && c !== false && c !== "")
-    .map((c) => (c instanceof Node ? c : String(c)));
+/** Texts that follow one another are one text. */
+function flat(children, asTyped) {
+  const all = [];
+  for (const c of children.flat(Infinity)) {
+    if (c === null || c === undefined || c === false || c === "") continue;
+    if (c instanceof Node) all.push(c);
+    else if (typeof all.at(-1) === "string") all.push(all.pop() + String(c));
+    else all.push(String(c));
+  }
+  return asTyped ? all : all.map((c) => (typeof c === "string" ? said(c) : c));
 }
 
 /**
@@ -33,13 +44,14 @@ export function svg(tag, attributes, ...children) {
 }
 
 export function put(node, ...children) {
-  node.replaceChildren(...flat(children));
+  node.replaceChildren(...flat(children, node.translate === false));
   return node;
 }
 
 /** Changes a text only when it differs, so that nothing is announced or laid out twice. */
 export function say(node, text) {
-  if (node.textContent !== text) node.textContent = text;
+  const words = node.translate === false ? text : said(text);
+  if (node.textContent !== words) node.textContent = words;
 }
 
 /** To screen readers, politely. */

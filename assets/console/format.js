@@ -1,16 +1,13 @@
 // Figures and states in words.
-const kDay = new Intl.DateTimeFormat("en-GB", { day: "numeric", month: "short", year: "numeric" });
-const kMoment = new Intl.DateTimeFormat("en-GB", {
-  day: "numeric",
-  month: "short",
-  year: "numeric",
-  hour: "2-digit",
-  minute: "2-digit",
-});
+const kDay = { day: "numeric", month: "short", year: "numeric" };
+const kMoment = { ...kDay, hour: "2-digit", minute: "2-digit" };
 
+/** As the page's language writes dates; a language that nobody speaks writes them in English. */
 function dated(utc, form) {
   const at = utc ? new Date(utc) : null;
-  return at && !Number.isNaN(at.getTime()) ? form.format(at) : "";
+  const { lang } = document.documentElement;
+  const language = lang === "en" || lang.startsWith("qps") ? "en-GB" : lang;
+  return at && !Number.isNaN(at.getTime()) ? at.toLocaleString(language, form) : "";
 }
 export const day = (utc) => dated(utc, kDay) || "–";
 export const moment = (utc) => dated(utc, kMoment) || "–";

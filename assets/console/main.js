@@ -2,6 +2,7 @@
 import { get, list, lostSince, me, watchConnection } from "./api.js";
 import { announce, h, mark, put, say } from "./dom.js";
 import { isOn } from "./format.js";
+import { languageChoice, speakAsThePage } from "./language.js";
 import { simulatedBadge } from "./parts.js";
 import { startRouter } from "./router.js";
 
@@ -105,4 +106,8 @@ setInterval(() => {
   if (!lostSince() && !document.hidden) lookForSession().catch(() => {});
 }, 4000);
 if (!location.hash) history.replaceState(null, "", "#/station");
+await speakAsThePage();
+languageChoice()
+  .then((choice) => document.getElementById("tongue").replaceChildren(...choice))
+  .catch(() => {});
 startRouter(routes, guard).then(() => lookForSession().catch(() => {}));

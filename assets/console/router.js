@@ -1,5 +1,6 @@
 // Addresses after the "#": one page each, with a life that ends when another is chosen.
 import { h, put } from "./dom.js";
+import { said } from "./language.js";
 import { notice } from "./parts.js";
 
 const kName = "Palpa console";
@@ -81,7 +82,7 @@ function showPlace(first) {
 /** Sets heading and title; the heading takes the focus unless this is the first page. */
 function opener(root, first) {
   return (title, ...beside) => {
-    document.title = `${title} · ${kName}`;
+    document.title = `${said(title)} · ${kName}`;
     const heading = h("h1", { tabindex: "-1" }, title);
     put(root, h("div", { class: "page-head" }, heading, beside));
     if (!first) heading.focus({ preventScroll: true });

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/overlay/wording.h"
+
 namespace palpa::scene {
 namespace {
 
@@ -20,7 +22,7 @@ HelpLayout helpLayout(const std::vector<KeyHelp>& keys, std::size_t rows, int te
                {std::max(kSmallestText_px, text_px * 17 / 20), false, colour::kTextDim}};
   l.pad = text_px;
   l.line = lineHeight(l.words) + text_px / 4;
-  int words_wide = textWidth(kHelpClose, l.small);
+  int words_wide = textWidth(said(kHelpClose), l.small);
   for (std::size_t i = 0; i < rows; ++i) {
     l.keys_wide = std::max(l.keys_wide, textWidth(keys[i].key, l.key));
     words_wide = std::max(words_wide, textWidth(keys[i].words, l.words));
@@ -68,8 +70,8 @@ void HelpPlate::build() {
     plates_.add(frame, kHelpGround, l.pad / 2);
     const int words = frame.x + 2 * l.pad + l.keys_wide;
     int y = frame.top() - l.pad / 2 - l.line / 2;
-    write(kHelpTitle, l.key, frame.x + l.pad, y, Align::left);
-    write(kHelpClose, l.small, frame.right() - l.pad, y, Align::right);
+    write(said(kHelpTitle), l.key, frame.x + l.pad, y, Align::left);
+    write(said(kHelpClose), l.small, frame.right() - l.pad, y, Align::right);
     y -= l.line / 2;
     for (std::size_t i = 0; i < rows; ++i) {
       y -= l.line;

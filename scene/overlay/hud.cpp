@@ -9,6 +9,7 @@
 
 #include "scene/actors/force_arrows.h"
 #include "scene/actors/surface_map.h"
+#include "scene/overlay/wording.h"
 
 namespace palpa::scene {
 namespace {
@@ -150,6 +151,7 @@ std::vector<HudPainter::Row> HudPainter::readings() const {
                         {"Force", text.force},     {"Touched", text.touched},
                         {"Overlay", text.overlay}, {"Marked", text.marked},
                         {"Note", text.note}};
+  for (Row& row : rows) row.name = said(row.name);
   std::erase_if(rows, [](const Row& row) { return row.value.empty(); });
   return rows;
 }
@@ -191,9 +193,10 @@ void HudPainter::buildLegend() {
   const TextStyle dim = style(0.85, false, colour::kTextDim),
                   bright = style(0.85, false, colour::kText);
   const int pad = text_ / 2, swatch = text_ * 2, bar = std::max(4, text_ / 3);
-  const std::string scale = content_->cut ? "30 mm = 1 N, cut at 4 N" : "30 mm = 1 N";
+  const std::string scale = said(content_->cut ? "30 mm = 1 N, cut at 4 N" : "30 mm = 1 N");
   int width = pad;
-  for (ForceKind kind : content_->kinds) width += swatch + textWidth(name(kind), bright) + 3 * pad;
+  for (ForceKind kind : content_->kinds)
+    width += swatch + textWidth(said(name(kind)), bright) + 3 * pad;
   const bool with_scale = width + textWidth(scale, dim) + pad <= panel_.width - 2 * margin_;
   if (with_scale) width += textWidth(scale, dim) + pad;
   const int height = lineHeight(bright) + pad;
@@ -207,8 +210,8 @@ void HudPainter::buildLegend() {
     plates_.add({x, y - bar / 2 - 1, swatch, bar + 2}, opaque(arrowOutline(kind)), 2);
     plates_.add({x + 1, y - bar / 2, swatch - 2, bar}, opaque(arrowColour(kind, colours_)), 1);
     x += swatch + pad;
-    write(name(kind), bright, x, y, Align::left);
-    x += textWidth(name(kind), bright) + 2 * pad;
+    write(said(name(kind)), bright, x, y, Align::left);
+    x += textWidth(said(name(kind)), bright) + 2 * pad;
   }
   if (with_scale) write(scale, dim, x, y, Align::left);
 }
@@ -221,7 +224,7 @@ void HudPainter::buildScale() {
   const TextStyle dim = style(0.85, false, colour::kTextDim),
                   bright = style(0.85, false, colour::kText);
   const int pad = text_ / 2, part = std::max(2, text_ / 6), bar = kParts * part;
-  const std::string unsure = scale.any_unsure ? "striped: not sure" : "";
+  const std::string unsure = scale.any_unsure ? said("striped: not sure") : "";
   const int width = textWidth(scale.title, dim) + textWidth(scale.low, bright) + bar +
                     textWidth(scale.high, bright) + 5 * pad +
                     (unsure.empty() ? 0 : textWidth(unsure, dim) + 2 * pad);
@@ -255,9 +258,9 @@ void HudPainter::buildTimeline() {
   const Rect frame{content_->panel.x + margin_, above_, content_->panel.width - 2 * margin_,
                    height};
   plates_.add(frame, colour::kPlate, pad / 2);
-  const int middle = frame.y + height / 2, rate = textWidth("paused", look);
+  const int middle = frame.y + height / 2, rate = textWidth(said("paused"), look);
   const auto left_for_track = [&](int time) { return frame.width - time - rate - 5 * pad; };
-  int time = textWidth("88:88.8 of 88:88.8", look);
+  int time = textWidth(said("88:88.8 of 88:88.8"), look);
   const bool with_whole = left_for_track(time) > frame.width / 4;
   if (!with_whole) time = textWidth("88:88.8", look);
   write(strip.time + (with_whole ? strip.whole : ""), look, frame.x + pad, middle, Align::left);

@@ -19,6 +19,7 @@
 #include "scene/actors/organ_actors.h"
 #include "scene/overlay/label.h"
 #include "scene/overlay/leaders.h"
+#include "scene/overlay/wording.h"
 #include "scene/renderer_setup.h"
 #include "scene/window/pixels.h"
 
@@ -196,11 +197,11 @@ class PlatePage {
   void sides(const Aspect& aspect) {
     const TextStyle style{text_, true, colour::kInk};
     const int x = static_cast<int>(kColumn * sight_.width) / 4;
-    put(aspect.left, style, x, sight_.height / 2, Align::centre);
-    put(aspect.right, style, sight_.width - x, sight_.height / 2, Align::centre);
+    put(said(aspect.left), style, x, sight_.height / 2, Align::centre);
+    put(said(aspect.right), style, sight_.width - x, sight_.height / 2, Align::centre);
     const int beyond = static_cast<int>((0.5 - kHead) * sight_.height) + text_ * 2 / 3;
-    put(aspect.top, style, sight_.width / 2, sight_.height / 2 + beyond, Align::centre);
-    put(aspect.bottom, style, sight_.width / 2, sight_.height / 2 - beyond, Align::centre);
+    put(said(aspect.top), style, sight_.width / 2, sight_.height / 2 + beyond, Align::centre);
+    put(said(aspect.bottom), style, sight_.width / 2, sight_.height / 2 - beyond, Align::centre);
   }
 
   void bar() {
@@ -209,7 +210,7 @@ class PlatePage {
     const Rgb& ink = colour::kInk;
     const int x = sight_.width - text_ - length->px;
     bar_.add({x, text_, length->px, text_ / 4}, {ink[0], ink[1], ink[2], 1}, 0);
-    put(std::to_string(length->mm) + " mm", {text_, false, ink}, x + length->px / 2,
+    put(said(std::to_string(length->mm) + " mm"), {text_, false, ink}, x + length->px / 2,
         text_ * 3 / 2 + lineHeight({text_}) / 2, Align::centre);
   }
 
@@ -299,7 +300,8 @@ Image anatomicalPlate(GlContextProvider& context, const anatomy::Patient& patien
   const bool by_entry = entry != patient.landmarks.end();
   if (by_entry && !section) places.push_back({"entry point", sight.pixelOf(entry->second)});
   PlatePage page(*fine, sight);
-  page.title(titleOf(aspect, wish, by_entry), patient.name);
+  for (NamedPlace& place : places) place.name = said(place.name);
+  page.title(said(titleOf(aspect, wish, by_entry)), patient.name);
   page.sides(aspect);
   page.names(places);
   page.bar();

@@ -12,6 +12,7 @@
 #include "scene/actors/organ_actors.h"
 #include "scene/overlay/hud.h"
 #include "scene/overlay/label.h"
+#include "scene/overlay/wording.h"
 #include "scene/renderer_setup.h"
 #include "scene/view/framing.h"
 #include "scene/window/pixels.h"
@@ -104,7 +105,7 @@ class Tile {
   }
   void put(const std::string& words, const TextStyle& style, int x, int y, Align align) {
     labels_.push_back(std::make_unique<Label>(*renderer_));
-    labels_.back()->set(words, style, x, y, align);
+    labels_.back()->set(said(words), style, x, y, align);
   }
 
   vtkRenderWindow& window_;

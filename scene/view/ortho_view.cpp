@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "scene/overlay/hud.h"
+#include "scene/overlay/wording.h"
 #include "scene/renderer_setup.h"
 
 namespace palpa::scene {
@@ -83,7 +84,8 @@ void OrthoView::place(const Rect& where, int window_width, int window_height, in
 
 void OrthoView::put(const std::string& words, const TextStyle& style, int x, int y) {
   if (words.empty()) return;
-  const int width = textWidth(words, style) + style.size_px * 2 / 3;
+  const std::string text = said(words);
+  const int width = textWidth(text, style) + style.size_px * 2 / 3;
   const int height = lineHeight(style);
   const int margin = style.size_px / 3;
   x = std::max(std::min(x, where_.width - width / 2 - margin), width / 2 + margin);
@@ -92,7 +94,7 @@ void OrthoView::put(const std::string& words, const TextStyle& style, int x, int
   if (!claim(plate)) return;
   plates_.add(plate, colour::kPlate, 3);
   words_.push_back(std::make_unique<Label>(*renderer_));
-  words_.back()->set(words, style, x, y, Align::centre);
+  words_.back()->set(text, style, x, y, Align::centre);
 }
 
 void OrthoView::layoutWords(int text) {

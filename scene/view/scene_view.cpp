@@ -20,6 +20,7 @@
 #include "scene/overlay/help_plate.h"
 #include "scene/overlay/hud.h"
 #include "scene/overlay/label.h"
+#include "scene/overlay/wording.h"
 #include "scene/renderer_setup.h"
 #include "scene/view/ar_view.h"
 #include "scene/view/navigation.h"
@@ -43,6 +44,26 @@ Hud saidLast(const Hud& all) {
   some.alarm = all.alarm;
   some.mark = all.mark;
   return some;
+}
+
+/// In the language of whoever looks.
+Hud inWords(Hud hud) {
+  for (std::string* text :
+       {&hud.phase, &hud.depth, &hud.force, &hud.time, &hud.touched, &hud.overlay, &hud.notice,
+        &hud.mark, &hud.marked, &hud.note, &hud.can_do})
+    *text = said(*text);
+  if (hud.timeline)
+    for (std::string* text : {&hud.timeline->time, &hud.timeline->whole, &hud.timeline->rate})
+      *text = said(*text);
+  if (hud.scale)
+    for (std::string* text : {&hud.scale->title, &hud.scale->low, &hud.scale->high})
+      *text = said(*text);
+  return hud;
+}
+
+std::vector<KeyHelp> inWords(std::vector<KeyHelp> keys) {
+  for (KeyHelp& key : keys) key = {said(key.key), said(key.words)};
+  return keys;
 }
 
 }  // namespace
@@ -180,8 +201,9 @@ void SceneView::Impl::writeWords(const SceneState& state) {
   Hud text = state.hud;
   // Over the keys stands nothing else but what was said last.
   if (!state.help.empty()) text = saidLast(text);
-  help.update(state.help, helpPanel(panels.ar, text_px()), text_px());
+  help.update(inWords(state.help), helpPanel(panels.ar, text_px()), text_px());
   if (ar.showsPatient() && state.surface_map) text.scale = scaleOf(*state.surface_map);
+  text = inWords(std::move(text));
   Surroundings around = ar.toolOnScreen(state, 0);
   if (isMerged(layout.stereo)) around.add(ar.toolOnScreen(state, 1));
   if (!other_hud) return hud.update(text, forces, panels.ar, text_px(), around);

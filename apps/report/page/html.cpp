@@ -91,7 +91,7 @@ void Html::element(std::string_view tag, Attributes attributes, std::string_view
 
 void Html::passOn() {
   if (!file_) return;
-  file_->write(out_);
+  file_->write(speaker_.more(out_));
   out_.clear();
 }
 

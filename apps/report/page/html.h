@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anatomy/base/whole_file.h"
+#include "apps/language/markup.h"
 
 namespace palpa::report {
 
@@ -46,6 +47,8 @@ class Html {
   void append(const Html& other) { out_ += other.out_; }
 
   const std::string& str() const { return out_; }
+  /// A whole page as it is written for people, in the language of this process.
+  std::string page() const { return language::pageIn(out_, language::written()); }
   /// Bytes of pictures in the page, as whoever writes them has counted them.
   std::size_t pictureBytes() const { return picture_bytes_; }
   void countPicture(std::size_t bytes) { picture_bytes_ += bytes; }
@@ -59,6 +62,7 @@ class Html {
   void head(std::string_view tag, Attributes attributes);
 
   WholeFile* file_ = nullptr;
+  language::PageSpeaker speaker_{language::written()};  ///< of what goes into the file
   std::size_t picture_bytes_ = 0;
   std::string out_;
   std::vector<std::string> open_;

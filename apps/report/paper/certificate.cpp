@@ -7,6 +7,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/language/languages.h"
 
 namespace palpa::report {
 namespace {
@@ -30,7 +31,7 @@ class CertificateSheet {
   /// Broken between words where the line is full.
   void words(const std::string& text, double size, bool bold, double left = kPaperEdge) {
     use(size, bold);
-    std::istringstream in(text);
+    std::istringstream in(language::written().book.said(text));
     std::string line;
     for (std::string word; in >> word;) {
       const std::string longer = line.empty() ? word : line + ' ' + word;

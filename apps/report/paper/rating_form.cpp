@@ -133,7 +133,7 @@ void writeRatingForm(const RatingForm& form, const std::filesystem::path& file) 
     html.element("p", {{"class", "small muted"}},
                  form.checklist->source + (form.global ? ". " + form.global->source : "") + ".");
   }
-  writeWhole(file, html.str());
+  writeWhole(file, html.page());
 }
 
 std::string answerSheet(const competence::Checklist& checklist,

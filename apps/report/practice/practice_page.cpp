@@ -70,7 +70,7 @@ std::string practiceHtml(const PracticePage& page, std::vector<progress::Practic
     if (!page.software.empty())
       html.element("p", {{"class", "muted small"}}, "Made by " + page.software + '.');
   }
-  return html.str();
+  return html.page();
 }
 
 namespace {

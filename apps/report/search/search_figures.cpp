@@ -209,7 +209,7 @@ std::vector<std::string> writeFigureFiles(const SearchFigures& figures,
     const auto main = html.in("main");
     writeSearchFigures(html, figures);
   }
-  writeWhole(folder / names[0], html.str() + '\n');
+  writeWhole(folder / names[0], html.page() + '\n');
   return names;
 }
 

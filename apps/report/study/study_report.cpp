@@ -148,7 +148,7 @@ std::string studyHtml(const StudyPage& page) {
     writeStudyHeader(html, page.result);
     writeStudyMain(html, page);
   }
-  return html.str();
+  return html.page();
 }
 
 }  // namespace

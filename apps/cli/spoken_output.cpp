@@ -1,0 +1,92 @@
+#include "apps/cli/spoken_output.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "anatomy/base/error.h"
+#include "apps/language/languages.h"
+#include "apps/station/assets.h"
+#include "scene/overlay/wording.h"
+
+namespace palpa::cli {
+namespace {
+
+constexpr char kOption[] = "--language";
+constexpr std::size_t kBuffer = 1 << 16;  // bytes: no line of ours is cut
+
+/// Objects and lists are for programs.
+bool isForPeople(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(' ');
+  return first != std::string_view::npos && line[first] != '{' && line[first] != '[';
+}
+
+bool writeAll(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(descriptor, text.data(), text.size());
+    if (written <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// The stream's own: line by line, as far as it is there.
+template <int descriptor>
+ssize_t say(void*, const char* text, std::size_t size) {
+  std::string out;
+  for (std::string_view rest(text, size); !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
+    const std::string_view line = rest.substr(0, end);
+    out += isForPeople(line) ? language::written().book.said(line) : std::string(line);
+    rest.remove_prefix(end);
+  }
+  return writeAll(descriptor, out) ? static_cast<ssize_t>(size) : 0;
+}
+
+template <int descriptor>
+FILE* spokenStream() {
+  FILE* const stream = fopencookie(nullptr, "w", {nullptr, say<descriptor>, nullptr, nullptr});
+  if (stream) std::setvbuf(stream, nullptr, _IOLBF, kBuffer);
+  return stream;
+}
+
+void speakOnTheTerminal() {
+  std::fflush(stdout);
+  std::fflush(stderr);
+  if (FILE* const out = spokenStream<STDOUT_FILENO>()) stdout = out;
+  if (FILE* const err = spokenStream<STDERR_FILENO>()) stderr = err;
+}
+
+}  // namespace
+
+std::string takeLanguage(std::vector<std::string>* words) {
+  std::string given;
+  for (auto word = words->begin(); word != words->end();) {
+    const bool joined = word->starts_with(std::string(kOption) + "=");
+    if (!joined && *word != kOption) {
+      ++word;
+      continue;
+    }
+    const auto value = joined ? word : word + 1;
+    if (value == words->end() || (!joined && value->starts_with('-')))
+      throw UsageError("lacks its language", kOption, "Give one, such as --language el");
+    given = joined ? value->substr(sizeof kOption) : *value;
+    word = words->erase(word, value + 1);
+  }
+  return given;
+}
+
+void speakTo(const std::vector<std::string>& words, const std::string& given) {
+  const std::filesystem::path folder = station::assetFile("languages");
+  const std::string code = language::wishedLanguage(folder, given);
+  const bool is_read = std::find(words.begin(), words.end(), "--live") != words.end();
+  language::speak(language::languageOf(folder, code));
+  if (language::spoken().book.isEnglish()) return;
+  scene::sayThrough([](const std::string& text) { return language::spoken().book.said(text); });
+  if (is_read) return;
+  language::write(language::languageOf(folder, code));
+  speakOnTheTerminal();
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,78 @@
+#include "apps/language/phrase.h"
+
+#include <algorithm>
+
+#include "anatomy/base/error.h"
+
+namespace palpa::language {
+namespace {
+
+struct Place {
+  std::size_t at, end;
+  int number;
+};
+
+/// The next "{7}" from `from` on; its `at` is npos where none follows.
+Place nextPlace(std::string_view text, std::size_t from) {
+  for (std::size_t at = text.find('{', from); at != std::string_view::npos;
+       at = text.find('{', at + 1)) {
+    std::size_t end = at + 1;
+    int number = 0;
+    while (end < text.size() && text[end] >= '0' && text[end] <= '9' && number < 100)
+      number = 10 * number + (text[end++] - '0');
+    if (end > at + 1 && end < text.size() && text[end] == '}') return {at, end + 1, number};
+  }
+  return {std::string_view::npos, 0, 0};
+}
+
+}  // namespace
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+bool isLetter(char c) { return lower(c) >= 'a' && lower(c) <= 'z'; }
+bool isLetterOrDigit(char c) { return isLetter(c) || (c >= '0' && c <= '9'); }
+
+Phrase::Phrase(const std::string& id, const std::string& translation) {
+  std::vector<int> places;
+  std::size_t from = 0;
+  for (Place next = nextPlace(id, 0); next.at != std::string::npos; next = nextPlace(id, from)) {
+    fixed.push_back(id.substr(from, next.at - from));
+    places.push_back(next.number);
+    from = next.end;
+  }
+  fixed.push_back(id.substr(from));
+  for (const std::string& part : fixed)
+    letters += static_cast<int>(std::count_if(part.begin(), part.end(), isLetter));
+
+  from = 0;
+  for (Place next = nextPlace(translation, 0); next.at != std::string::npos;
+       next = nextPlace(translation, from)) {
+    const auto found = std::find(places.begin(), places.end(), next.number);
+    if (found == places.end())
+      throw UsageError(
+          "has the place {" + std::to_string(next.number) + "}, but its message has none",
+          "the translation \"" + translation + "\"", "Correct it in the catalogue");
+    said.push_back({translation.substr(from, next.at - from), -1});
+    said.push_back({"", static_cast<int>(found - places.begin())});
+    from = next.end;
+  }
+  said.push_back({translation.substr(from), -1});
+}
+
+std::string PhraseIndex::beginning(std::string_view text, std::size_t length) {
+  std::string key(text.substr(0, length));
+  std::transform(key.begin(), key.end(), key.begin(), lower);
+  return key;
+}
+
+void PhraseIndex::add(const Phrase& phrase) {
+  by_beginning_[beginning(phrase.head(), std::min(phrase.head().size(), kBeginning))].push_back(
+      &phrase);
+}
+
+void PhraseIndex::sort() {
+  for (auto& [beginning, all] : by_beginning_)
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Phrase* a, const Phrase* b) { return a->letters > b->letters; });
+}
+
+}  // namespace palpa::language

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpa::language {
+
+/// A file of gettext: https://www.gnu.org/software/gettext/manual (PO files). Of what it may hold
+/// we use plain messages and the header; plural forms and contexts are refused.
+struct PoFile {
+  struct Message {
+    std::string id, translation;  ///< UTF-8; the translation is empty where there is none yet
+  };
+  std::map<std::string, std::string> header;  ///< "Language", "Content-Type" ...
+  std::vector<Message> messages;
+};
+
+/// `name` is for words about what is wrong. Throws UsageError.
+PoFile readPo(std::string_view text, const std::string& name);
+
+}  // namespace palpa::language

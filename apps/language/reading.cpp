@@ -1,0 +1,194 @@
+#include "apps/language/reading.h"
+
+#include <algorithm>
+
+#include "apps/language/letters.h"
+
+namespace palpa::language {
+namespace {
+
+constexpr int kALetter = 10, kAPhrase = 3, kAPlace = 1,
+              kOtherCase = 1;  // worth, and what they cost
+constexpr int kMostEffort = 100'000;
+constexpr std::size_t kLongestPutIn = 240;  // bytes
+constexpr int kMostEnds = 4;                // of what is put in, tried
+
+}  // namespace
+
+/// A phrase that is tried from one place of a range on.
+struct Reading::Trial {
+  Range range;
+  const Choices& later;
+  const Phrase* phrase = nullptr;
+  bool other_case = false;
+  int worth = 0;
+  std::vector<Range> put_in;
+  Choice best;
+  int most = 0;  ///< no phrase here is worth more
+};
+
+bool Reading::standsAt(std::string_view fixed, std::size_t at, Range range) const {
+  return at + fixed.size() <= range.end && text_.substr(at, fixed.size()) == fixed;
+}
+
+/// Where a part of a sentence may begin or end.
+bool Reading::isBreak(std::size_t at, Range range) const {
+  if (at == range.begin || at == range.end) return true;
+  static constexpr std::string_view kMarks = ".,;:";
+  const auto isMark = [&](std::size_t i) {  // not the point of a number
+    return kMarks.find(text_[i]) != std::string_view::npos &&
+           (i + 1 >= range.end || text_[i + 1] == ' ');
+  };
+  if (isMark(at) || text_[at] == ')' || text_[at] == '(' || text_[at - 1] == '(') return true;
+  return text_[at - 1] == ' ' && at >= 2 && at - 2 >= range.begin && isMark(at - 2);
+}
+
+/// Behind a letter, or as part of a path, an address or an option.
+bool Reading::isWithinAName(std::size_t at, Range range) const {
+  if (at == range.begin) return false;
+  const char before = text_[at - 1];
+  if (before == '-') return at - 1 == range.begin || !isLetterOrDigit(text_[at - 2]);
+  return isLetterOrDigit(before) ||
+         std::string_view("/\\_=.@").find(before) != std::string_view::npos;
+}
+
+/// A name that ends before `at` does not end there.
+bool Reading::goesOn(std::size_t at, Range range) const {
+  if (at == range.end) return false;
+  if (isLetterOrDigit(text_[at])) return true;
+  if (text_[at] == '.') return at + 1 < range.end && isLetterOrDigit(text_[at + 1]);
+  return std::string_view("/\\_=@").find(text_[at]) != std::string_view::npos;
+}
+
+std::size_t Reading::tokenEnd(std::size_t at, Range range) const {
+  if (!isLetterOrDigit(text_[at])) return at + 1;
+  while (at < range.end && isLetterOrDigit(text_[at])) ++at;
+  return at;
+}
+
+/// What stands fast in part `part` ends at `from`: what follows?
+void Reading::follow(std::size_t part, std::size_t from, Trial* trial) {
+  const Phrase& phrase = *trial->phrase;
+  const auto& fixed = phrase.fixed;
+  if (++effort_ > kMostEffort) return;
+  if (part + 1 == fixed.size()) {
+    const bool cut =
+        !fixed[part].empty() && isLetterOrDigit(fixed[part].back()) && goesOn(from, trial->range);
+    const int worth = trial->worth + trial->later[from - trial->range.begin].worth;
+    if (!cut && worth > trial->best.worth)
+      trial->best = {worth, trial->phrase, from, trial->put_in, trial->other_case};
+    return;
+  }
+  // A plural's ending may be nothing at all.
+  const bool may_be_empty = !fixed[part].empty() && isLetter(fixed[part].back());
+  const std::size_t first = may_be_empty ? from : from + 1;
+  const std::size_t last = std::min(trial->range.end, from + kLongestPutIn);
+  const std::string& next = fixed[part + 1];
+  int ends = 0;
+  for (std::size_t end = first; end <= last && ends < kMostEnds; ++end) {
+    const bool fits = next.empty() ? isBreak(end, trial->range) : standsAt(next, end, trial->range);
+    if (!fits) continue;
+    ++ends;
+    putIn(part + 1, {from, end}, end + next.size(), trial);
+  }
+  if (next.empty() && last == trial->range.end && ends == kMostEnds)
+    putIn(part + 1, {from, last}, last, trial);
+}
+
+void Reading::putIn(std::size_t part, Range what, std::size_t from, Trial* trial) {
+  if (effort_ > kMostEffort) return;
+  // To the end of all it is what stands there in any case.
+  const int worth = what.end == trial->range.end
+                        ? trial->later[what.begin - trial->range.begin].worth
+                        : choices(what).front().worth;
+  trial->worth += worth;
+  trial->put_in.push_back(what);
+  follow(part, from, trial);
+  trial->put_in.pop_back();
+  trial->worth -= worth;
+}
+
+void Reading::tryPhrase(const Phrase& phrase, std::size_t at, std::size_t head, Trial* trial) {
+  const std::string& fixed = phrase.head();
+  if (++effort_ > kMostEffort || trial->best.worth >= trial->most) return;
+  const bool after_place = phrase.beginsWithAPlace();
+  const bool exact = standsAt(fixed, head, trial->range);
+  const bool may_differ = phrase.hasSeveralWords() || isBreak(head, trial->range);
+  const bool other = !exact && !after_place && may_differ && isLetter(fixed[0]) &&
+                     lower(fixed[0]) == lower(text_[head]) &&
+                     standsAt(std::string_view(fixed).substr(1), head + 1, trial->range);
+  if (!exact && !other) return;
+  trial->phrase = &phrase;
+  trial->other_case = other;
+  trial->worth = kALetter * phrase.letters - kAPhrase - (other ? kOtherCase : 0) -
+                 kAPlace * static_cast<int>(phrase.fixed.size() - 1);
+  trial->put_in.clear();
+  if (after_place)
+    putIn(1, {at, head}, head + fixed.size(), trial);
+  else
+    follow(0, head + fixed.size(), trial);
+}
+
+/// Phrases that begin at `at`, and what stands fast in them at `head`.
+void Reading::tryAt(std::size_t at, std::size_t head, Trial* trial) {
+  (at == head ? whole_ : behind_)
+      .at(text_.substr(head, trial->range.end - head),
+          [&](const Phrase& phrase) { tryPhrase(phrase, at, head, trial); });
+}
+
+Reading::Choice Reading::choiceAt(std::size_t at, Range range, const Choices& later) {
+  const std::size_t end = tokenEnd(at, range);
+  Trial trial{range, later, nullptr, false, 0, {}, {}, 0};
+  const std::string_view rest = text_.substr(at, range.end - at);
+  trial.most =
+      kALetter * static_cast<int>(std::count_if(rest.begin(), rest.end(), isLetter)) - kAPhrase;
+  trial.best = {later[end - range.begin].worth, nullptr, end, {}, false};
+  if (isWithinAName(at, range)) return trial.best;
+  tryAt(at, at, &trial);
+  if (!isBreak(at, range)) return trial.best;
+  const std::size_t last = std::min(range.end, at + kLongestPutIn);
+  for (std::size_t head = at + 1; head < last; ++head) {
+    tryAt(at, head, &trial);
+    if (text_[head] == ';' ||
+        (text_[head] == '.' && head + 1 < range.end && text_[head + 1] == ' '))
+      break;
+  }
+  return trial.best;
+}
+
+const Reading::Choices& Reading::choices(Range range) {
+  if (const auto found = known_.find(range); found != known_.end()) return found->second;
+  Choices all(range.end - range.begin + 1);
+  for (std::size_t at = range.end; at-- > range.begin;)
+    all[at - range.begin] = choiceAt(at, range, all);
+  return known_.emplace(range, std::move(all)).first->second;
+}
+
+std::string Reading::saidPhrase(const Choice& choice, const NumberForm& numbers) {
+  std::string out;
+  for (const Phrase::Piece& piece : choice.phrase->said)
+    out += piece.place < 0 ? piece.text
+                           : said(choice.put_in[static_cast<std::size_t>(piece.place)], numbers);
+  if (!choice.other_case) return out;
+  return isLetter(choice.phrase->head()[0]) && choice.phrase->head()[0] >= 'a'
+             ? withCapital(out)
+             : withoutCapital(out);
+}
+
+std::string Reading::said(Range range, const NumberForm& numbers) {
+  const Choices& all = choices(range);
+  std::string out, as_it_is;
+  for (std::size_t at = range.begin; at < range.end;) {
+    const Choice& choice = all[at - range.begin];
+    if (!choice.phrase) {
+      as_it_is += text_.substr(at, choice.next - at);
+    } else {
+      out += numbersIn(as_it_is, numbers) + saidPhrase(choice, numbers);
+      as_it_is.clear();
+    }
+    at = choice.next;
+  }
+  return out + numbersIn(as_it_is, numbers);
+}
+
+}  // namespace palpa::language
