@@ -5,12 +5,12 @@
 // + (or stands within a `template`, or about a % of printf) is one message with {1}, {2} ... for what is
 // put in. A single word counts where it begins with a capital, or stands in assets/languages/words.txt:
 // most others are names of fields.
-import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { messagesOfData, messagesOfPage } from "./words_data.mjs";
 
 const top = new URL("..", import.meta.url).pathname;
 const template = `${top}assets/languages/palpa.pot`;
+const kRead = ["anatomy", "apps", "ar", "assets", "calibration", "haptics", "scene"];
 const kNobodyReads =
   /^(tests|docs|cmake)\/|^apps\/bench\/|_glsl\.h$|page\/style\.cpp$|^apps\/report\/page\/html\.|\.in$|pinned_/;
 const kEnds = new Set([
@@ -230,24 +230,10 @@ function isForPeople(piece) {
 }
 
 function* allMessages() {
-  const files = execFileSync(
-    "git",
-    [
-      "ls-files",
-      "-co",
-      "--exclude-standard",
-      "--",
-      "anatomy",
-      "apps",
-      "ar",
-      "calibration",
-      "haptics",
-      "scene",
-      "assets",
-    ],
-    { cwd: top, encoding: "utf8" },
+  const files = kRead.flatMap((folder) =>
+    readdirSync(top + folder, { recursive: true }).map((name) => `${folder}/${name}`),
   );
-  for (const file of files.split("\n").filter((f) => f && !kNobodyReads.test(f))) {
+  for (const file of files.sort().filter((f) => !kNobodyReads.test(f))) {
     const text = () => readFileSync(top + file, "utf8");
     if (/\.(cpp|h|js)$/.test(file)) {
       const found = [];

@@ -1,6 +1,5 @@
 // What people read of the files in assets: texts of JSON, texts and attributes of a page.
-const kNobodyReads =
-  /(^|_)source$|^(format|made_by|schema|\$schema|license|url|file|pattern)$/;
+const kNobodyReads = /(^|_)source$|^(format|made_by|schema|\$schema|license|url|file|pattern)$/;
 
 /** Every text of a JSON file but for sources and names of formats. */
 export function messagesOfData(text) {

@@ -53,8 +53,8 @@ void addCommands(CLI::App& program) {
   program.add_option("--language")
       ->type_name("CODE")
       ->description(
-          "Anywhere: the language of window, pages and terminal: en, el, ko, de, fr, es, pt "
-          "(default: as LANG says; files are always written the same)");
+          "Anywhere: the language of window, pages and terminal, such as el "
+          "(default: as LANG says; files for programs are always written the same)");
   program.footer(
       "Examples:\n  palpa subclavian --operator expert --seed 1 --fast --out A\n"
       "  palpa subclavian --help");

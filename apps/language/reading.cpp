@@ -79,8 +79,8 @@ void Reading::follow(std::size_t part, std::size_t from, Trial* trial) {
       trial->best = {worth, trial->phrase, from, trial->put_in, trial->other_case};
     return;
   }
-  // A plural's ending may be nothing at all.
-  const bool may_be_empty = !fixed[part].empty() && isLetter(fixed[part].back());
+  // A plural's ending may be nothing at all, and so may a sentence that is only sometimes there.
+  const bool may_be_empty = !fixed[part].empty() && fixed[part].back() != ' ';
   const std::size_t first = may_be_empty ? from : from + 1;
   const std::size_t last = std::min(trial->range.end, from + kLongestPutIn);
   const std::string& next = fixed[part + 1];
@@ -113,7 +113,9 @@ void Reading::tryPhrase(const Phrase& phrase, std::size_t at, std::size_t head, 
   if (++effort_ > kMostEffort || trial->best.worth >= trial->most) return;
   const bool after_place = phrase.beginsWithAPlace();
   const bool exact = standsAt(fixed, head, trial->range);
-  const bool may_differ = phrase.hasSeveralWords() || isBreak(head, trial->range);
+  // A single word may be a command or a name: "Palpa" is not palpa.
+  const bool begins = isBreak(head, trial->range) && lower(text_[head]) != text_[head];
+  const bool may_differ = phrase.hasSeveralWords() || begins;
   const bool other = !exact && !after_place && may_differ && isLetter(fixed[0]) &&
                      lower(fixed[0]) == lower(text_[head]) &&
                      standsAt(std::string_view(fixed).substr(1), head + 1, trial->range);

@@ -114,7 +114,9 @@ class Reading {
     const { text } = this;
     const first = phrase.head[0];
     const exact = this.#standsAt(phrase.head, head, trial.end);
-    const mayDiffer = phrase.several || this.#isBreak(head, trial.begin, trial.end);
+    // A single word may be a command or a name: "Palpa" is not palpa.
+    const begins = this.#isBreak(head, trial.begin, trial.end) && /[A-Z]/.test(text[head]);
+    const mayDiffer = phrase.several || begins;
     const other =
       !exact &&
       !phrase.behind &&
@@ -153,7 +155,7 @@ class Reading {
         };
       return;
     }
-    const first = now !== "" && isLetter(now.at(-1)) ? from : from + 1;
+    const first = now !== "" && now.at(-1) !== " " ? from : from + 1;
     const last = Math.min(trial.end, from + kLongestPutIn);
     const next = fixed[part + 1];
     let ends = 0;
