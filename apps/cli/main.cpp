@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/bench/room/room_parts.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/usage_words.h"
 #include "apps/os/signals.h"
@@ -50,6 +51,10 @@ int main(int argc, char** argv) {
     cv::setNumThreads(1);  // results must not depend on the number of cores
     if (!verbose) quietLibraries();
     if (palpa::session::isGuard(words)) return palpa::session::standGuard(words);
+    if (palpa::bench::isRoomPart(words)) {
+      palpa::bench::beRoomPart(words);
+      return 0;
+    }
     return palpa::cli::runCommand(std::move(words));
   } catch (...) {
     return tellFailure();

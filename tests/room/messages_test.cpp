@@ -50,7 +50,8 @@ TEST(RoomMessages, AreReadAsTheyAreWritten) {
   again(someState(), stationStateIn);
   again(goneWithoutAWord(), stationStateIn);
   again(someEvent(), happeningIn);
-  again(Heard{"20260301-100000-aa", "7", {{"20260301-100000-ab", {{"0f-1", 7}, {"0f-2", 0}}}}}, heardIn);
+  again(Heard{"20260301-100000-aa", "7", {{"20260301-100000-ab", {{"0f-1", 7}, {"0f-2", 0}}}}},
+        heardIn);
   again(Ask{"q1", "", Ask::What::prepare, {{"task", "subclavian"}}}, askIn);
   again(Answer{"q1", false, "one is running already"}, answerIn);
 }
