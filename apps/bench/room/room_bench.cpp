@@ -151,6 +151,7 @@ void printTally(const RoomTally& tally, const RoomKills& kills, nlohmann::json p
   params["computers_switched_off"] = kills.off();
   params["broker_killed"] = kills.brokers();
   params["session_files"] = tally.records;
+  params["session_files_cut_off"] = tally.cut_off;
   const std::pair<const char*, std::int64_t> counts[] = {
       {"events_recorded", tally.recorded},       {"events_arrived", tally.arrived},
       {"events_missing", tally.missing},         {"events_doubled", tally.doubled},

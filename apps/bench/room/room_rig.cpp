@@ -205,7 +205,7 @@ void RoomRig::killBroker() {
 RoomTally RoomRig::tally() const {
   RoomTally all;
   for (const Station& one : stations_)
-    add(recordedIn(one.home), arrivedFrom(one.name, at("watch")), &all);
+    add(recordedIn(one.home, &all.cut_off), arrivedFrom(one.name, at("watch")), &all);
   return all;
 }
 

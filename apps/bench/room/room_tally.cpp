@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 
+#include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
 #include "apps/evidence/told_events.h"
 #include "apps/live/live_sink.h"
@@ -33,6 +34,14 @@ void addLines(const fs::path& page, const std::string& station, ByRecord* all) {
   }
 }
 
+void addEvents(const record::SessionReader& reader, ByRecord* all) {
+  std::vector<ToldEvent>& events = (*all)[reader.info().uuid];
+  for (const runtime::Event& event : reader.events())
+    if (!live::eventEntry(event, evidence::toneOfEvent).empty())
+      events.push_back(
+          {static_cast<std::int64_t>(events.size()), live::secondsOf(event.t_ns), event.kind});
+}
+
 void addRecord(const std::vector<ToldEvent>& recorded, const std::vector<ToldEvent>& arrived,
                RoomTally* tally) {
   std::set<std::int64_t> seen;
@@ -57,17 +66,16 @@ void addRecord(const std::vector<ToldEvent>& recorded, const std::vector<ToldEve
 
 }  // namespace
 
-ByRecord recordedIn(const fs::path& home) {
+ByRecord recordedIn(const fs::path& home, std::int64_t* cut_off) {
   ByRecord all;
   std::error_code none;
   for (const auto& session : fs::directory_iterator(home / "sessions", none)) {
     if (!fs::exists(session.path() / "session.palpa", none)) continue;  // ended before it began
-    const record::SessionReader reader(session.path() / "session.palpa");
-    std::vector<ToldEvent>& events = all[reader.info().uuid];
-    for (const runtime::Event& event : reader.events())
-      if (!live::eventEntry(event, evidence::toneOfEvent).empty())
-        events.push_back(
-            {static_cast<std::int64_t>(events.size()), live::secondsOf(event.t_ns), event.kind});
+    try {
+      addEvents(record::SessionReader(session.path() / "session.palpa"), &all);
+    } catch (const Error&) {
+      if (cut_off) ++*cut_off;
+    }
   }
   return all;
 }

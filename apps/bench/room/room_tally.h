@@ -20,6 +20,8 @@ struct RoomTally {
   /// kept them yet
   std::int64_t beyond = 0;
   std::int64_t records = 0;  ///< session files
+  /// Of these, cut off before they could be read: a computer was switched off as it made them.
+  std::int64_t cut_off = 0;
 };
 
 /// An event, as far as both sides tell it alike.
@@ -30,8 +32,9 @@ struct ToldEvent {
 };
 using ByRecord = std::map<std::string, std::vector<ToldEvent>>;  ///< by the records' UUIDs
 
-/// All that is told of the sessions below `home`, by their records. Throws Error.
-ByRecord recordedIn(const std::filesystem::path& home);
+/// All that is told of the sessions below `home`, by their records. `cut_off`, where given, counts
+/// the files that were cut off as they were made.
+ByRecord recordedIn(const std::filesystem::path& home, std::int64_t* cut_off = nullptr);
 /// Of a station, as the watcher wrote it down in its folder, in the order in which it came.
 ByRecord arrivedFrom(const std::string& station, const std::filesystem::path& watch);
 void add(const ByRecord& recorded, const ByRecord& arrived, RoomTally* tally);
