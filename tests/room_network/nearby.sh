@@ -4,41 +4,9 @@
 #   once it is, is gone when it is killed; the daemon is gone and back.
 set -uo pipefail
 palpa=$1
-if [ -z "${PALPA_TWO_NETWORKS:-}" ]; then
-  for tool in unshare ip avahi-daemon dbus-daemon curl; do
-    command -v $tool >/dev/null || [ -x /usr/sbin/$tool ] || {
-      echo "Skipped: $tool is not installed"
-      exit 77
-    }
-  done
-  unshare -rnm true 2>/dev/null || {
-    echo "Skipped: no network of its own may be made here"
-    exit 77
-  }
-  PALPA_TWO_NETWORKS=1 exec unshare -rnm bash "$0" "$@"
-fi
-PATH=$PATH:/usr/sbin:/sbin
-work=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null; wait 2>/dev/null; rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data XDG_RUNTIME_DIR=$work/r
-mkdir -m 700 "$work/r"
-cd "$work" || exit 1
-fail() {
-  echo "$1"
-  tail -n 5 "$work"/*.log
-  exit 1
-}
-# soon WORDS COMMAND...: within a minute
-soon() {
-  local words=$1
-  shift
-  for _ in $(seq 300); do
-    "$@" >/dev/null 2>&1 && return
-    sleep 0.2
-  done
-  fail "$words"
-}
+. "$(dirname "$0")/two_networks.sh"
+in_networks -rnm "avahi-daemon dbus-daemon" "$0" "$@"
+enter_work
 
 # Only one user is known here: the daemon's folder is given to whom it runs as usually.
 printf 'root:x:0:0::/:/bin/sh\navahi:x:0:0::/:/bin/sh\n' >passwd

@@ -5,42 +5,9 @@
 #   the wire between: TLS only. A plain word on that wire is found, too.
 set -uo pipefail
 palpa=$1 tap=$2
-if [ -z "${PALPA_TWO_NETWORKS:-}" ]; then
-  for tool in unshare ip mosquitto curl; do
-    command -v $tool >/dev/null || [ -x /usr/sbin/$tool ] || {
-      echo "Skipped: $tool is not installed"
-      exit 77
-    }
-  done
-  unshare -rn true 2>/dev/null || {
-    echo "Skipped: no network of its own may be made here"
-    exit 77
-  }
-  PALPA_TWO_NETWORKS=1 exec unshare -rn bash "$0" "$@"
-fi
-PATH=$PATH:/usr/sbin:/sbin
-work=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null; wait 2>/dev/null; rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data XDG_RUNTIME_DIR=$work/run
-export DBUS_SYSTEM_BUS_ADDRESS=unix:path=$work/none  # nobody is announced on a real network
-mkdir -m 700 "$work/run"
-cd "$work" || exit 1
-fail() {
-  echo "$1"
-  tail -n 5 "$work"/*.log
-  exit 1
-}
-# soon WORDS COMMAND...: within a minute
-soon() {
-  local words=$1
-  shift
-  for _ in $(seq 300); do
-    "$@" >/dev/null 2>&1 && return
-    sleep 0.2
-  done
-  fail "$words"
-}
+. "$(dirname "$0")/two_networks.sh"
+in_networks -rn "mosquitto" "$0" "$@"
+enter_work
 
 unshare -n sleep 600 &
 there=$!

@@ -32,7 +32,7 @@ struct Score {
   std::vector<record::RecordedTrial> trials;
 };
 
-Score read(const std::filesystem::path& recorded) {
+Score scoreIn(const std::filesystem::path& recorded) {
   const record::SessionReader reader(recorded);
   Score score;
   score.info = reader.info();
@@ -111,7 +111,7 @@ void playAll(const Score& score, runtime::FlightSink& sink, live::LiveSession& s
 }  // namespace
 
 void playSession(const PlayedSession& played) {
-  const Score score = read(played.recorded);
+  const Score score = scoreIn(played.recorded);
   const record::SessionInfo info = infoFor(score.info, played.trainee);
   const std::filesystem::path evidence = played.out / "session.palpa";
   {

@@ -6,16 +6,16 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/quantile.h"
 #include "apps/bench/bench.h"
+#include "apps/bench/empty_records.h"
 #include "apps/bench/room/room_rig.h"
 #include "apps/bench/timing.h"
-#include "apps/record/store/record_store.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::bench {
 namespace {
 
-constexpr int kResamples = 2000;
-constexpr std::uint64_t kBootstrapSeed = 1;
+constexpr int kRoomResamples = 2000;
+constexpr std::uint64_t kRoomBootstrapSeed = 1;
 constexpr char kTrainee[] = "B00001";
 
 /// What is killed in turn while sessions run in the room: every station, the broker among them.
@@ -102,8 +102,9 @@ class RoomMeasurement {
     for (const char* of_each : {"room", "sessions", "ticks", "scheduling"}) params.erase(of_each);
     params["ratios"] = ratios_;
     params["interval"] = "95 % bootstrap of the median";
-    params["resamples"] = kResamples;
-    const ConfidenceInterval interval = bootstrapMedian(ratios_, kResamples, kBootstrapSeed);
+    params["resamples"] = kRoomResamples;
+    const ConfidenceInterval interval =
+        bootstrapMedian(ratios_, kRoomResamples, kRoomBootstrapSeed);
     bench::print("lateness_ratio_p99", median(ratios_), "1", params);
     bench::print("lateness_ratio_p99_low", interval.low, "1", params);
     bench::print("lateness_ratio_p99_high", interval.high, "1", params);
@@ -163,23 +164,17 @@ void printTally(const RoomTally& tally, const RoomKills& kills, nlohmann::json p
 }  // namespace
 
 void benchRoom(const RoomBenchOptions& options) {
-  const os::TemporaryFolder folder("palpa-bench-records-");
-  const std::string records =
-      options.records.empty() ? (folder.path() / "records.sqlite").string() : options.records;
-  record::RecordStore store(records);
-  if (!store.trainees().empty())
-    throw UsageError("holds records already", store.place(),
-                     "Give an empty database or a new file");
-  store.addTrainee({kTrainee, "novice", "", "right", runtime::utcNow(), runtime::utcNow(), "", ""});
-  RoomRig rig({options.stations, options.seconds, records, kTrainee});
-  const nlohmann::json params{{"data", "simulated"},
-                              {"stations", options.stations},
-                              {"store", record::isServer(records) ? "postgresql" : "sqlite"}};
+  EmptyRecords records(options.records);
+  const std::string now = runtime::utcNow();
+  records.store.addTrainee({kTrainee, "novice", "", "right", now, now, "", ""});
+  RoomRig rig({options.stations, options.seconds, records.place, kTrainee});
+  const nlohmann::json params{
+      {"data", "simulated"}, {"stations", options.stations}, {"store", records.kind()}};
   RoomMeasurement measurement(options, rig);
   measurement.run();
   measurement.print(params);
   printTally(rig.tellTheRest(), measurement.kills(), params);
-  print("trials_in_records", static_cast<double>(store.trials().size()), "1", params);
+  print("trials_in_records", static_cast<double>(records.store.trials().size()), "1", params);
 }
 
 }  // namespace palpa::bench

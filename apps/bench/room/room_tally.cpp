@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Times are told to the millisecond.
-bool same(const ToldEvent& a, const ToldEvent& b) {
+bool isSame(const ToldEvent& a, const ToldEvent& b) {
   return a.event == b.event && std::abs(a.t_s - b.t_s) < 1e-6;
 }
 
@@ -53,7 +53,7 @@ void addRecord(const std::vector<ToldEvent>& recorded, const std::vector<ToldEve
       ++tally->doubled;
     } else if (one.number < 0 || one.number >= static_cast<std::int64_t>(recorded.size())) {
       ++tally->beyond;
-    } else if (same(one, recorded[static_cast<std::size_t>(one.number)])) {
+    } else if (isSame(one, recorded[static_cast<std::size_t>(one.number)])) {
       ++tally->arrived;
     } else {
       ++tally->changed;
