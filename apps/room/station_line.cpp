@@ -141,17 +141,18 @@ void StationLine::hearsOf(const Heard& heard) {
   std::erase_if(under_way_, [&](const Happening& one) {
     return one.session <= heard.beyond || one.number <= heard.of(one.session, one.record);
   });
+  const bool moved = under_way_.size() < before;
+  const bool was_lost =  // on the way
+      !moved && !under_way_.empty() && ServingClock::now() - moved_ > seconds(1);
   patience_ = kFirstPatience;
   if (missesWhatIsNotUnderWay()) {  // his pages are gone, or older than they were
     told_.clear();
     under_way_.clear();
     ++beginnings_;
-  } else if (listens_anew) {
+  } else if (listens_anew || was_lost) {
     tellAgain();
-  } else if (under_way_.size() < before) {
+  } else if (moved) {
     moved_ = ServingClock::now();
-  } else if (!under_way_.empty() && ServingClock::now() - moved_ > seconds(1)) {
-    tellAgain();  // one was lost on the way
   }
 }
 
