@@ -27,6 +27,10 @@ pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(PQXX REQUIRED IMPORTED_TARGET libpqxx)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(MOSQUITTO REQUIRED IMPORTED_TARGET libmosquitto)
+pkg_check_modules(AVAHI REQUIRED avahi-client)
+# Without its _REENTRANT, which would refuse the headers that are compiled once.
+add_library(Avahi::Client INTERFACE IMPORTED)
+target_link_libraries(Avahi::Client INTERFACE ${AVAHI_LINK_LIBRARIES})
 pkg_check_modules(OPENAL REQUIRED IMPORTED_TARGET openal)
 pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
 # OpenIGTLink: its package's own file is refused by CMake of today.

@@ -22,7 +22,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libgl1-mesa-dri")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xdg-utils")   # opens the console in the browser
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "www-browser")
+# The broker of a room; who is on the network
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "www-browser, mosquitto, avahi-daemon")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/cmake/package/postinst ${PROJECT_SOURCE_DIR}/cmake/package/postrm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)

@@ -128,6 +128,21 @@ struct HudBenchOptions {
 /// to 3840x2160, with one eye, two and a headset. One JSON object a line. Simulated. Throws Error.
 void benchHud(const HudBenchOptions& options);
 
+struct RoomBenchOptions {
+  int stations = 20;    ///< with the one whose session is measured; at least 2
+  int blocks = 6;       ///< A B B A of sessions
+  double seconds = 20;  ///< of each session
+  std::string records;  ///< an empty database; empty: a file that passes
+};
+
+/// What a room of stations costs a session in real time: the 99 % quantile of its haptic tick's
+/// lateness with broker, watcher and all other stations on the same computer, and without, in turn;
+/// and whether every event that a station has recorded has arrived at the watcher once, in order,
+/// although each station and the broker are killed once meanwhile. One JSON object a line. Needs
+/// mosquitto. Trials stay in a database that was given. Throws Error; UsageError for one that holds
+/// records.
+void benchRoom(const RoomBenchOptions& options);
+
 struct SessionBenchOptions {
   int trials = 4;
   std::uint64_t seed = 1;

@@ -10,10 +10,9 @@
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/paracentesis_score.h"
 #include "apps/bench/bench.h"
+#include "apps/bench/empty_records.h"
 #include "apps/bench/timing.h"
 #include "apps/os/child_process.h"
-#include "apps/os/file_access.h"
-#include "apps/record/store/record_store.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::bench {
@@ -201,26 +200,20 @@ void printMeasured(const std::string& what, const CommandCost& m, nlohmann::json
 }  // namespace
 
 void benchRecords(const RecordsBenchOptions& options) {
-  const os::TemporaryFolder folder("palpa-bench-records-");
-  if (!folder.made())
-    throw Error("cannot be made", folder.path().string(), "Free space there, or set TMPDIR");
-  const std::string records =
-      options.records.empty() ? (folder.path() / "records.sqlite").string() : options.records;
-  record::RecordStore store(records);
-  if (!store.trainees().empty())
-    throw UsageError("holds records already", store.place(),
-                     "Give an empty database or a new file");
+  EmptyRecords records(options.records);
   std::vector<int> sizes = options.trials;
   std::sort(sizes.begin(), sizes.end());
   int trainees = 0;
   for (const int trials : sizes) {
-    while (trainees * kTrialsEach < trials) addDrawn(store, ++trainees);
+    while (trainees * kTrialsEach < trials) addDrawn(records.store, ++trainees);
     const nlohmann::json params{{"data", "simulated"},
-                                {"store", record::isServer(records) ? "postgresql" : "sqlite"},
+                                {"store", records.kind()},
                                 {"trials", trainees * kTrialsEach},
                                 {"trainees", trainees}};
-    printMeasured("cohort", measured({"report", "cohort"}, records, folder.path()), params);
-    printMeasured("export", measured({"records", "export", "--all"}, records, folder.path()),
+    printMeasured("cohort", measured({"report", "cohort"}, records.place, records.folder.path()),
+                  params);
+    printMeasured("export",
+                  measured({"records", "export", "--all"}, records.place, records.folder.path()),
                   params);
   }
 }

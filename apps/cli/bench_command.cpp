@@ -165,6 +165,32 @@ void addHud(CLI::App& bench) {
   hud->callback([options] { bench::benchHud(*options); });
 }
 
+void addRoomBench(CLI::App& bench) {
+  CLI::App* room = bench.add_subcommand(
+      "room",
+      "What a room of 20 stations costs a session, and whether the room hears every event once");
+  room->footer(
+      "Examples:\n  palpa bench room > room.jsonl\n  palpa bench room --quick\n  palpa bench room "
+      "--records postgresql://palpa@localhost/bench\n      an empty database, in which the "
+      "simulated trials stay");
+  const auto options = std::make_shared<bench::RoomBenchOptions>();
+  room->add_option("--stations", options->stations, "With the one that is measured (default 20)")
+      ->check(inRange(2, 100));
+  room->add_option("--blocks", options->blocks,
+                   "Of four sessions each: in the room, twice alone, in the room (default 6)")
+      ->check(inRange(1, 1000));
+  room->add_option("--seconds", options->seconds, "Of each session (default 20)")
+      ->check(inRange(2.0, 3600.0, "s"));
+  room->add_option("--records", options->records,
+                   "An empty database or a new file; default: a file that passes");
+  const auto quick = std::make_shared<bool>(false);
+  room->add_flag("--quick", *quick, "4 stations, one block of 8 s, to try it out");
+  room->callback([options, quick] {
+    if (*quick) *options = {4, 1, 8, options->records};
+    bench::benchRoom(*options);
+  });
+}
+
 void addSession(CLI::App& bench) {
   CLI::App* session = bench.add_subcommand(
       "session", "How many times real time a simulated session runs, how soon it starts, and why");
@@ -305,6 +331,7 @@ void addBench(CLI::App& program) {
   addHeadsetBench(*bench);
   addHud(*bench);
   addObserver(*bench);
+  addRoomBench(*bench);
   addSession(*bench);
   addStop(*bench);
   addTracking(*bench);

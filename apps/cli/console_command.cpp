@@ -98,6 +98,8 @@ fs::path folderOf(const PairOptions& o) {
 }
 
 void forget(const PairOptions& o) {
+  room::Room::in(folderOf(o));  // or a folder would be made
+  const room::RoomChange alone(folderOf(o));
   room::Room room = room::Room::in(folderOf(o));
   if (!room.forget(o.station))
     throw UsageError("is not paired", o.station,
@@ -123,9 +125,11 @@ room::Room roomFor(const PairOptions& o, std::chrono::sys_seconds now) {
 void pair(const PairOptions& o) {
   const auto now = utcSecondsOf(runtime::utcNow());
   const fs::path file = o.out.empty() ? fs::path(o.station + ".palpa-pairing") : fs::path(o.out);
+  room::needStationName(o.station);
+  if (o.broker.empty()) room::Room::in(folderOf(o));  // or a folder would be made
+  const room::RoomChange alone(folderOf(o));
   if (fs::exists(file))
     throw UsageError("is there already", file.string(), "Remove it, or choose another with --out");
-  room::needStationName(o.station);
   room::Room room = roomFor(o, now);
   room.pair(o.station, now, [&file](const room::Pairing& made) { writePairing(file, made); });
   std::printf(

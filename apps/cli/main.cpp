@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/bench/room/room_parts.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/spoken_output.h"
 #include "apps/cli/usage_words.h"
@@ -52,6 +53,10 @@ int main(int argc, char** argv) {
     cv::setNumThreads(1);  // results must not depend on the number of cores
     if (!verbose) quietLibraries();
     if (palpa::session::isGuard(words)) return palpa::session::standGuard(words);
+    if (palpa::bench::isRoomPart(words)) {
+      palpa::bench::beRoomPart(words);
+      return 0;
+    }
     palpa::cli::speakTo(words, language);
     return palpa::cli::runCommand(std::move(words));
   } catch (...) {

@@ -212,6 +212,20 @@ void enterRoom(const ConsoleSettings& s, const OpenedConsole& opened, Console* c
   }
 }
 
+/// Whom others can reach they find, and who watches a room looks who is there.
+void meetOthersNearby(const ConsoleSettings& s, int port, Console* console) {
+  room::Nearby::Wish wish;
+  wish.looks = console->watch != nullptr;
+  if (!isLoopback(s.address))
+    wish.announces = {.name = "",
+                      .host = "",
+                      .station = console->joined ? console->joined->name() : "",
+                      .version = s.place.version,
+                      .port = port,
+                      .watches = wish.looks};
+  if (wish.announces || wish.looks) console->nearby = std::make_unique<room::Nearby>(wish);
+}
+
 void prepare(const ConsolePlace& place) {
   if (const std::error_code problem = os::makeFolders(place.home))
     failFile("cannot be used", place.home, problem, "Or choose another folder with --home");
@@ -256,6 +270,7 @@ void serveConsole(const ConsoleSettings& s,
   checkHealth(console);
   const OpenedConsole opened = encryption.opened(port);
   enterRoom(s, opened, &console);
+  meetOthersNearby(s, port, &console);
   const Serving serving(server);
   only.announce(opened.url);
   ready(opened);

@@ -31,6 +31,19 @@ json described(const std::string& name, const RoomWatch::Station& station) {
   return one;
 }
 
+/// Stations of the network that this room does not know.
+json strangersIn(const room::Nearby& nearby, const room::Room& paired) {
+  json all = json::array();
+  for (const room::FoundConsole& one : nearby.found())
+    if (!one.watches && !paired.stations().contains(one.station))
+      all.push_back({{"name", one.name},
+                     {"host", one.host},
+                     {"port", one.port},
+                     {"station", one.station},
+                     {"version", one.version}});
+  return all;
+}
+
 json described(const Console& c) {
   json all{{"joined", nullptr}, {"watch", nullptr}};
   if (c.joined) {
@@ -47,6 +60,10 @@ json described(const Console& c) {
   all["watch"] = {{"broker", described(c.watch->broker())},
                   {"trouble", c.watch->trouble()},
                   {"stations", stations}};
+  if (c.nearby) {
+    all["watch"]["strangers"] = strangersIn(*c.nearby, paired);
+    all["watch"]["nearby_trouble"] = c.nearby->trouble();
+  }
   return all;
 }
 
@@ -87,8 +104,15 @@ void sendPictureOf(Console& c, const std::string& name, httplib::Response& r) {
   const auto stations = watchOf(c).stations();
   const auto found = stations.find(name);
   if (found == stations.end() || !found->second.about) return refuse(r, 404, "is not in the room");
-  const std::string picture = pictureOf(*found->second.about);
   r.status = 204;  // nothing to show now is no error
+  const auto taken = runtime::ServingClock::now();
+  if (!c.picture_places.take(name, taken)) return;
+  std::string picture;
+  try {
+    picture = pictureOf(*found->second.about);
+  } catch (const std::exception&) {  // no room for the authority's file, say
+  }
+  c.picture_places.giveBack(name, taken, runtime::ServingClock::now());
   if (picture.empty()) return;
   r.status = 200;
   r.set_content(picture, "image/jpeg");
@@ -120,6 +144,22 @@ void sendOwnPicture(Console& c, const httplib::Request& q, httplib::Response& r)
 }
 
 }  // namespace
+
+bool PicturePlaces::take(const std::string& station, Time now) {
+  const std::lock_guard lock(mutex_);
+  const auto known = in_peace_.find(station);
+  if (known != in_peace_.end() && now < known->second) return false;
+  return asked_.size() < kMost && asked_.insert(station).second;
+}
+
+void PicturePlaces::giveBack(const std::string& station, Time taken, Time now) {
+  const std::lock_guard lock(mutex_);
+  asked_.erase(station);
+  if (now - taken > kSlow)
+    in_peace_[station] = now + kInPeace;
+  else
+    in_peace_.erase(station);
+}
 
 void addRoomRoutes(WebServer& server, Console& c) {
   server.Get("/api/room",

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include "apps/console/jobs.h"
@@ -13,10 +16,30 @@
 #include "apps/console/web_server.h"
 #include "apps/language/shelf.h"
 #include "apps/live/live_sink.h"
+#include "apps/room/nearby.h"
 #include "apps/room/watch.h"
+#include "apps/runtime/clock.h"
 #include "apps/station/assets.h"
 
 namespace palpa::console {
+
+/// The few threads that wait for pictures of other stations at a time, one a station. One that has
+/// kept a thread waiting is left in peace for a while: it shall not have all places. Any thread.
+class PicturePlaces {
+ public:
+  using Time = runtime::ServingClock::time_point;
+  static constexpr std::size_t kMost = 4;
+  static constexpr std::chrono::seconds kSlow{1}, kInPeace{10};
+
+  /// False: there is none for this station now.
+  bool take(const std::string& station, Time now);
+  void giveBack(const std::string& station, Time taken, Time now);
+
+ private:
+  std::mutex mutex_;
+  std::set<std::string> asked_;
+  std::map<std::string, Time> in_peace_;  ///< until then
+};
 
 /// What the routes share.
 struct Console {
@@ -42,7 +65,9 @@ struct Console {
   std::filesystem::path room;              ///< folder of the room that it watches
   std::string room_trouble;                ///< why it is in none, although it should be
   std::unique_ptr<room::RoomWatch> watch;  ///< of a room, or null
-  std::unique_ptr<RoomStation> joined;     ///< to a room, or null
+  PicturePlaces picture_places;
+  std::unique_ptr<RoomStation> joined;   ///< to a room, or null
+  std::unique_ptr<room::Nearby> nearby;  ///< on the network, or null: nobody there matters
 };
 
 /// One function a part of the house's API; each adds its paths to the server.

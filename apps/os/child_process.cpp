@@ -70,8 +70,9 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return all;
 }
 
-/// Its descriptor 0 is in `how`; the others go to `log`.
-ProcessId spawn(Spawning& how, const std::vector<std::string>& arguments,
+/// The first of the words is the name under which it runs. Its descriptor 0 is in `how`; the others
+/// go to `log`.
+ProcessId spawn(Spawning& how, const char* program, std::vector<std::string> words,
                 const std::filesystem::path& log) {
   posix_spawn_file_actions_addopen(&how.files, STDOUT_FILENO, log.c_str(),
                                    O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0600);
@@ -81,13 +82,22 @@ ProcessId spawn(Spawning& how, const std::vector<std::string>& arguments,
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&how.attributes, &none);
   posix_spawnattr_setflags(&how.attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
-  std::vector<std::string> words{"palpa"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
   pid_t pid = 0;
-  if (const int error = posix_spawn(&pid, "/proc/self/exe", &how.files, &how.attributes,
+  if (const int error = posix_spawn(&pid, program, &how.files, &how.attributes,
                                     pointersTo(words).data(), environ))
-    failFile("cannot be started", "palpa " + arguments.front(), error);
+    failFile("cannot be started", words[0] + (words.size() > 1 ? " " + words[1] : ""), error);
   return {pid, beganAt(pid)};
+}
+
+std::vector<std::string> named(const std::string& name, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{name};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
+ProcessId spawnAnew(Spawning& how, const std::vector<std::string>& arguments,
+                    const std::filesystem::path& log) {
+  return spawn(how, "/proc/self/exe", named("palpa", arguments), log);
 }
 
 }  // namespace
@@ -96,9 +106,17 @@ ProcessId start(const std::vector<std::string>& arguments, const std::filesystem
                 bool gives_way) {
   Spawning how;
   posix_spawn_file_actions_addopen(&how.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  const ProcessId process = spawn(how, arguments, log);
+  const ProcessId process = spawnAnew(how, arguments, log);
   if (gives_way) ::setpriority(PRIO_PROCESS, static_cast<id_t>(process.pid), kNice);
   return process;
+}
+
+ProcessId startInstalled(const std::filesystem::path& program,
+                         const std::vector<std::string>& arguments,
+                         const std::filesystem::path& log) {
+  Spawning how;
+  posix_spawn_file_actions_addopen(&how.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  return spawn(how, program.c_str(), named(program.filename().string(), arguments), log);
 }
 
 ProcessStarter::ProcessStarter() : thread_(startThread([this] { run(); })) {}
@@ -144,7 +162,7 @@ Companion startWithLine(const std::vector<std::string>& arguments) {
   Spawning how;
   posix_spawn_file_actions_adddup2(&how.files, ends[1], STDIN_FILENO);
   try {
-    const ProcessId process = spawn(how, arguments, "/dev/null");
+    const ProcessId process = spawnAnew(how, arguments, "/dev/null");
     ::close(ends[1]);
     return {process, ends[0]};
   } catch (...) {
@@ -190,15 +208,13 @@ void askToEnd(const ProcessId& process) {
 }
 
 void becomeAnew(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"palpa"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> words = named("palpa", arguments);
   ::signal(SIGPIPE, SIG_DFL);  // ignored, it would stay so
   ::execv("/proc/self/exe", pointersTo(words).data());
 }
 
 bool startProgram(const std::string& name, const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{name};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> words = named(name, arguments);
   pid_t pid = 0;
   return posix_spawnp(&pid, name.c_str(), nullptr, nullptr, pointersTo(words).data(), environ) == 0;
 }

@@ -24,6 +24,10 @@ struct ProcessId {
 /// started it; output goes to `log`; nothing of ours stays open in it. Throws Error.
 ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log,
                 bool gives_way);
+/// As `start`, of an installed program instead: `program` is its file.
+ProcessId startInstalled(const std::filesystem::path& program,
+                         const std::vector<std::string>& arguments,
+                         const std::filesystem::path& log);
 /// Starts processes as `start` does, at the priority of the thread that made this. What a thread
 /// starts inherits its priority and may not raise it: a session that a server's thread starts,
 /// which gives way to all others, would give way as well, its haptic thread with it.

@@ -37,11 +37,12 @@ void setUp(Database& database) {
   database.exec("PRAGMA synchronous=NORMAL");
   // Merge the log every 16 MB instead of every 4: fewer waits for the disk while recording.
   database.exec("PRAGMA wal_autocheckpoint=4000");
-  Transaction transaction(database);
+}
+
+void makeTables(Database& database) {
   database.exec("PRAGMA application_id=" + std::to_string(kApplicationId));
   database.exec("PRAGMA user_version=" + std::to_string(kSchemaVersion));
   database.exec(schemaSql());
-  transaction.commit();
 }
 
 void writeInfo(TableWriter& tables, const SessionInfo& info) {
@@ -90,9 +91,10 @@ void SessionWriter::Impl::create(const SessionInfo& info) {
   try {
     database.emplace(file, Database::Mode::write);
     setUp(*database);
-    tables.emplace(*database);
     paired = info.pair_config.has_value();
-    Transaction transaction(*database);
+    Transaction transaction(*database);  // whoever is killed here leaves all of it, or nothing
+    makeTables(*database);
+    tables.emplace(*database);
     writeInfo(*tables, info);
     transaction.commit();
   } catch (...) {

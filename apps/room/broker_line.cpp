@@ -13,6 +13,7 @@
 #include "apps/os/real_time.h"
 #include "apps/os/socket.h"
 #include "apps/os/tls/tls_client.h"
+#include "apps/room/broker_words.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::room {
@@ -23,9 +24,6 @@ constexpr int kQos = 1, kKeepAlive = 10;  // s
 constexpr std::size_t kUnderWay = 20;     // said and not taken yet
 constexpr milliseconds kStep{100}, kFirstRest{1000}, kLongestRest{15000}, kEnding{2000};
 
-/// MQTT 5: reason codes from 128 on.
-bool isRefusal(int reason) { return reason >= 128; }
-
 /// Once a program, never undone.
 void beginLibrary() {
   static const int begun = mosquitto_lib_init();
@@ -34,45 +32,7 @@ void beginLibrary() {
   os::surviveBrokenConnections();
 }
 
-constexpr char kNotThatOne[] = "certificate verify failed";
-constexpr char kNotOurs[] =
-    "refused this computer's certificate, which is over or of another room: pair it again";
-
-/// What OpenSSL says at either end, in words that help.
-std::string whyNoTls(const std::string& log) {
-  const auto has = [&log](const char* words) { return log.find(words) != std::string::npos; };
-  if (has("alert certificate expired") || has("alert unknown ca") || has("alert bad certificate"))
-    return kNotOurs;
-  if (has(kNotThatOne))
-    return "is not the one of this room, or its certificate is over: look whether the address is "
-           "right, and pair anew";
-  return "did not agree on encryption (" + (log.empty() ? "no reason given" : log) + ")";
-}
-
-std::string whyNot(int result, const std::string& log) {
-  switch (result) {
-    case MOSQ_ERR_TLS:
-    case MOSQ_ERR_TLS_HANDSHAKE:
-      return log.find("unexpected eof") == std::string::npos ? whyNoTls(log) : "is gone";
-    case MOSQ_ERR_EAI:
-    case MOSQ_ERR_LOOKUP:
-      return "has a name that no computer here answers to";
-    case MOSQ_ERR_CONN_REFUSED:
-    case MOSQ_ERR_NO_CONN:
-    case MOSQ_ERR_ERRNO:
-      return "cannot be reached: look whether it runs, and whether the network is there";
-    case MOSQ_ERR_CONN_LOST:
-    case MOSQ_ERR_KEEPALIVE:
-      return log.find("alert") == std::string::npos ? "is gone" : whyNoTls(log);
-    default:
-      return std::string("does not work (") + mosquitto_strerror(result) + ")";
-  }
-}
-
-struct Freed {
-  void operator()(mosquitto* client) const { mosquitto_destroy(client); }
-};
-using Client = std::unique_ptr<mosquitto, Freed>;
+using Client = std::unique_ptr<mosquitto, decltype([](mosquitto* it) { mosquitto_destroy(it); })>;
 
 }  // namespace
 
@@ -145,7 +105,11 @@ template <class Queue, class One>
 static void keepInOrder(Queue* waiting, One one) {
   forgetOlder(waiting, one.said);
   if (waiting->size() == BrokerLine::kMostWaiting) waiting->pop_front();
-  waiting->push_back(std::move(one));
+  const auto behind = one.said.urgent
+                          ? std::find_if(waiting->begin(), waiting->end(),
+                                         [](const auto& other) { return !other.said.urgent; })
+                          : waiting->end();
+  waiting->insert(behind, std::move(one));
 }
 
 void BrokerLine::Shared::settle(bool stands, const std::string& trouble) {
@@ -158,7 +122,7 @@ void BrokerLine::Shared::hello(int reason) {
   open = reason == 0;
   opened_at = runtime::ServingClock::now();
   if (!open)
-    refused = std::string("refused this computer: ") + mosquitto_reason_string(reason);
+    refused = whyRefused(reason);
   else if (wish.topics.empty())
     settle(true, "");
 }
@@ -167,8 +131,7 @@ void BrokerLine::Shared::hello(int reason) {
 void BrokerLine::Shared::listens(const std::vector<int>& reasons) {
   const auto bad = std::find_if(reasons.begin(), reasons.end(), isRefusal);
   if (bad == reasons.end()) return settle(true, "");
-  refused = std::string("refuses to tell this computer what it needs to hear (") +
-            mosquitto_reason_string(*bad) + "): pair it again";
+  refused = whyNotTold(*bad);
 }
 
 /// Not within the library's call: it holds locks of its own there.
@@ -199,10 +162,7 @@ void BrokerLine::Shared::countBriefLines() {
   constexpr int kMostBrief = 2;
   const bool was_brief = open && runtime::ServingClock::now() - opened_at < kBrief;
   brief = was_brief ? brief + 1 : 0;
-  if (brief > kMostBrief && refused.empty())
-    refused =
-        "ends every line at once: perhaps another console uses the same file of this room. "
-        "Close one of the two, or pair this station again";
+  if (brief > kMostBrief && refused.empty()) refused = kEndsEveryLine;
 }
 
 void BrokerLine::Shared::hear(const mosquitto_message& message) {
@@ -218,10 +178,7 @@ void BrokerLine::Shared::taken(int number, int reason) {
   const auto found = std::find_if(under_way.begin(), under_way.end(),
                                   [number](const auto& one) { return one.first == number; });
   if (found == under_way.end()) return;
-  if (isRefusal(reason))
-    refused = "refused what was said about " + found->second.said.topic + " (" +
-              mosquitto_reason_string(reason) +
-              "): let it read its files again (HUP), or pair this station again";
+  if (isRefusal(reason)) refused = whyNotHeard(found->second.said.topic, reason);
   under_way.erase(found);
 }
 
@@ -233,8 +190,7 @@ Client BrokerLine::Shared::connecting() {
   mosquitto_int_option(one, MOSQ_OPT_TCP_NODELAY, 1);
   mosquitto_int_option(one, MOSQ_OPT_SSL_CTX_WITH_DEFAULTS, 0);
   mosquitto_void_option(one, MOSQ_OPT_SSL_CTX, tls.context());
-  const Said& will = wish.last_will;
-  if (!will.topic.empty())
+  if (const Said& will = wish.last_will; !will.topic.empty())
     mosquitto_will_set_v5(one, will.topic.c_str(), static_cast<int>(will.words.size()),
                           will.words.data(), kQos, will.retained, nullptr);
   mosquitto_connect_v5_callback_set(one, [](mosquitto*, void* self, int reason, int,
@@ -271,20 +227,19 @@ bool BrokerLine::Shared::say(mosquitto* client, Waiting one) {
   mosquitto_property_free_all(&more);
   const bool never = result == MOSQ_ERR_OVERSIZE_PACKET || result == MOSQ_ERR_PAYLOAD_SIZE ||
                      result == MOSQ_ERR_INVAL || result == MOSQ_ERR_MALFORMED_UTF8;
-  if (never)
-    settle(true, "What is to be said about " + said.topic + " is too much for the room's broker (" +
-                     mosquitto_strerror(result) + ")");
+  if (never) settle(true, tooMuch(said.topic, result));
   if (result == MOSQ_ERR_SUCCESS) under_way.emplace_back(number, std::move(one));
   return never || result == MOSQ_ERR_SUCCESS;
 }
 
 void BrokerLine::Shared::send(mosquitto* client) {
-  while (open && under_way.size() < kUnderWay) {
+  while (open) {
     std::optional<Waiting> next;
     {
       const std::lock_guard lock(mutex);
       while (!waiting.empty() && waiting.front().isOver()) waiting.pop_front();
       if (waiting.empty()) return;
+      if (under_way.size() >= kUnderWay && !waiting.front().said.urgent) return;
       next = std::move(waiting.front());
       waiting.pop_front();
     }
@@ -340,17 +295,14 @@ void BrokerLine::Shared::run() {
     if (result == MOSQ_ERR_SUCCESS) {
       result = speak(client.get());
       // Its word why may be lost with the line, on which we have begun to talk meanwhile.
-      if (!open && refused.empty() && log.find(kNotThatOne) == std::string::npos)
-        refused = kNotOurs;
+      if (!open && refused.empty() && !isAnotherRooms(log)) refused = kNotOurs;
     }
     countBriefLines();
     rest = open && refused.empty() ? kFirstRest : std::min(2 * rest, kLongestRest);
     takeBack();
     std::unique_lock lock(mutex);
     if (ending) break;
-    state = {false, "The room's broker (" + wish.access.host + ":" +
-                        std::to_string(wish.access.port) + ") " +
-                        (refused.empty() ? whyNot(result, log) : refused)};
+    state = {false, ofBroker(wish.access, refused.empty() ? whyNot(result, log) : refused)};
     if (changed.wait_for(lock, rest, [this] { return ending; })) break;
   }
   const std::lock_guard lock(mutex);

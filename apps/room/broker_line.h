@@ -25,6 +25,7 @@ struct Said {
   bool retained = false;  ///< the broker tells the newest to whoever comes later
   /// Words that mean something now only are not said later.
   std::optional<std::chrono::seconds> good_for = std::nullopt;
+  bool urgent = false;  ///< it is said before all that waits
 };
 
 /// A line to an MQTT 5 broker over TLS, at QoS 1, with a thread of its own that gives way to all

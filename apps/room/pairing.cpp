@@ -12,6 +12,7 @@
 #include "apps/os/file_access.h"
 #include "apps/os/tls/kept_identity.h"
 #include "apps/room/messages.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::room {
 namespace {
@@ -134,6 +135,19 @@ Pairing readPairing(const fs::path& file, std::chrono::sys_seconds now) {
   if (os::factsOf(p.broker.identity.certificate, file.string()).until <= now)
     json.refuse("certificate", "is over");
   return p;
+}
+
+RoomChange::RoomChange(const fs::path& folder) {
+  constexpr std::chrono::seconds kPatience{10};
+  if (const std::error_code problem = os::makeFolders(folder))
+    failFile("cannot be made", folder, problem, "Or choose another folder with --room");
+  if (!runtime::comesTrue(kPatience, [&] {
+        lock_ = os::FileLock::exclusive(folder / "changing", os::FileLock::Missing::is_made);
+        return lock_ != nullptr;
+      }))
+    throw Error("cannot be changed", "the room " + folder.string(),
+                "Perhaps another palpa console pair is at work: wait for its end. Or the folder "
+                "is another user's");
 }
 
 Room Room::made(const fs::path& folder, const std::string& host, int port,

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
+#include "apps/os/file_access.h"
 #include "apps/room/broker_line.h"
 
 namespace palpa::room {
@@ -23,6 +25,17 @@ void writePairing(const std::filesystem::path& file, const Pairing& pairing);
 /// Throws UsageError where it can be read by others, is damaged, of a newer program, or over at
 /// `now`.
 Pairing readPairing(const std::filesystem::path& file, std::chrono::sys_seconds now);
+
+/// Held while a room's folder is changed, or two who pair at once would each write down a room
+/// without the other's station. Waits for another one, ten seconds at most; then throws Error, as
+/// where the folder cannot be written.
+class RoomChange {
+ public:
+  explicit RoomChange(const std::filesystem::path& folder);
+
+ private:
+  std::unique_ptr<os::FileLock> lock_;
+};
 
 /// The folder of a room: an authority of its own, the certificates that it has given, and what its
 /// broker (mosquitto) is started with: `mosquitto -c FOLDER/mosquitto.conf`. The broker lets in who

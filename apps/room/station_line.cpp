@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "apps/os/real_time.h"
 
 namespace palpa::room {
 namespace {
@@ -12,7 +13,9 @@ using runtime::ServingClock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::size_t kMostUnderWay = 200, kAsksRemembered = 64;
+constexpr std::size_t kMostUnderWay = 200, kAsksRemembered = 64, kMostAsks = 16;
+/// Nobody waits longer for the answer.
+constexpr seconds kAskIsGood{5};
 constexpr seconds kFirstPatience{10}, kLongestPatience{600}, kSaidAnyhow{5};
 constexpr milliseconds kShownApart{500};
 
@@ -40,9 +43,18 @@ StationLine::StationLine(const Pairing& pairing, const StationFacts& facts,
              .topics = {topicOf(pairing.station, Topic::heard),
                         topicOf(pairing.station, Topic::asks)},
              .greets = [this] { return greeting(); },
-             .hears = [this](const Said& said) { hears(said); }}) {}
+             .hears = [this](const Said& said) { hears(said); }}),
+      handler_(os::startThread([this] { handleAll(); })) {}
 
-StationLine::~StationLine() { line_.say(lastWill(station_)); }
+StationLine::~StationLine() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  came_.notify_all();
+  handler_.join();
+  line_.say(lastWill(station_));
+}
 
 Said StationLine::said(Topic topic, const nlohmann::json& message, bool retained) const {
   return {topicOf(station_, topic), wire(message), retained};
@@ -129,27 +141,53 @@ void StationLine::hearsOf(const Heard& heard) {
   std::erase_if(under_way_, [&](const Happening& one) {
     return one.session <= heard.beyond || one.number <= heard.of(one.session, one.record);
   });
+  const bool moved = under_way_.size() < before;
+  const bool was_lost =  // on the way
+      !moved && !under_way_.empty() && ServingClock::now() - moved_ > seconds(1);
   patience_ = kFirstPatience;
   if (missesWhatIsNotUnderWay()) {  // his pages are gone, or older than they were
     told_.clear();
     under_way_.clear();
     ++beginnings_;
-  } else if (listens_anew) {
+  } else if (listens_anew || was_lost) {
     tellAgain();
-  } else if (under_way_.size() < before) {
+  } else if (moved) {
     moved_ = ServingClock::now();
-  } else if (!under_way_.empty() && ServingClock::now() - moved_ > seconds(1)) {
-    tellAgain();  // one was lost on the way
   }
 }
 
-void StationLine::handle(const Ask& ask) {
+void StationLine::take(const Ask& ask) {
   {
     const std::lock_guard lock(mutex_);
     if (std::find(asked_.begin(), asked_.end(), ask.id) != asked_.end()) return;
     asked_.push_back(ask.id);
     if (asked_.size() > kAsksRemembered) asked_.pop_front();
+    if (ask.what != Ask::What::stop) {
+      if (asks_.size() < kMostAsks) asks_.push_back({ask, ServingClock::now()});
+      came_.notify_all();
+      return;
+    }
   }
+  handle(ask);
+}
+
+/// What has waited too long behind others is left undone: whoever asked has been told so.
+void StationLine::handleAll() {
+  os::giveWay();
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    came_.wait(lock, [this] { return ending_ || !asks_.empty(); });
+    if (ending_) return;
+    const Waiting next = std::move(asks_.front());
+    asks_.pop_front();
+    if (ServingClock::now() - next.came > kAskIsGood) continue;
+    lock.unlock();
+    handle(next.ask);
+    lock.lock();
+  }
+}
+
+void StationLine::handle(const Ask& ask) {
   Answer answer{ask.id, false, ""};
   try {
     answer = handles_(ask);
@@ -166,7 +204,7 @@ void StationLine::hears(const Said& said) {
   try {
     if (addressed->topic == Topic::heard) hearsOf(heardIn(said.words));
     // What somebody asked for before we were here is not what he asks for now.
-    if (addressed->topic == Topic::asks && !said.retained) handle(askIn(said.words));
+    if (addressed->topic == Topic::asks && !said.retained) take(askIn(said.words));
   } catch (const Error&) {  // nobody of this room speaks so
   }
 }

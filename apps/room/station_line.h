@@ -1,11 +1,13 @@
 #pragma once
 
+#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "apps/room/messages.h"
 #include "apps/room/pairing.h"
@@ -18,7 +20,8 @@ namespace palpa::room {
 /// it: a broker that dies loses nothing. Until then it is told again. Any thread.
 class StationLine {
  public:
-  /// `handles`: does what is asked; on the line's thread.
+  /// `handles`: does what is asked, one after the other, on a thread of its own; a stop at once, on
+  /// the line's thread, whatever else is being done or waits.
   StationLine(const Pairing& pairing, const StationFacts& facts,
               std::function<Answer(const Ask&)> handles);
   ~StationLine();
@@ -47,7 +50,9 @@ class StationLine {
   std::vector<Said> greeting();
   void hears(const Said& said);
   void hearsOf(const Heard& heard);
+  void take(const Ask& ask);
   void handle(const Ask& ask);
+  void handleAll();
   void tellAgain();
   bool missesWhatIsNotUnderWay() const;
   Said said(Topic topic, const nlohmann::json& message, bool retained) const;
@@ -69,7 +74,15 @@ class StationLine {
   Time moved_{};  ///< something was heard, or told again
   std::chrono::seconds patience_;
   std::deque<std::string> asked_;  ///< newest ids: a broker may say a thing twice
-  BrokerLine line_;                ///< last: its thread uses the rest
+  struct Waiting {
+    Ask ask;
+    Time came;
+  };
+  std::deque<Waiting> asks_;  ///< to be done, but for stops
+  std::condition_variable came_;
+  bool ending_ = false;
+  BrokerLine line_;  ///< its thread uses what is above
+  std::thread handler_;
 };
 
 }  // namespace palpa::room

@@ -206,7 +206,8 @@ std::optional<Answer> RoomWatch::ask(const std::string& station, const Ask& ask,
   if (!line_.state().stands) return std::nullopt;
   std::unique_lock lock(mutex_);
   waited_for_[ask.id] = std::nullopt;
-  line_.say({topicOf(station, Topic::asks), wire(toJson(ask)), false, patience});
+  line_.say({topicOf(station, Topic::asks), wire(toJson(ask)), false, patience,
+             ask.what == Ask::What::stop});
   answered_.wait_for(lock, patience, [&] { return waited_for_[ask.id].has_value(); });
   std::optional<Answer> answer = waited_for_[ask.id];
   waited_for_.erase(ask.id);

@@ -196,6 +196,31 @@ class StationCard {
   }
 }
 
+/** Who is on the network and not in this room. */
+function strangersList(watch) {
+  if (watch.strangers.length === 0)
+    return watch.nearby_trouble ? h("p", { class: "muted" }, watch.nearby_trouble) : null;
+  return h(
+    "section",
+    { class: "card" },
+    h("h2", {}, "Found here, not in this room"),
+    h(
+      "ul",
+      {},
+      watch.strangers.map((s) =>
+        h(
+          "li",
+          {},
+          `${s.name} (${s.host}, port ${s.port}): `,
+          s.station
+            ? `paired as ${s.station} to another room.`
+            : "not paired yet: run palpa console pair NAME here, and bring it that file.",
+        ),
+      ),
+    ),
+  );
+}
+
 function troubles(watch) {
   return [
     watch.broker.stands
@@ -213,8 +238,9 @@ export async function show({ root, life, open }) {
   open("Room");
   const first = h("p", { class: "lead", role: "status" }),
     wrong = h("div", {}),
-    grid = h("div", { class: "room-grid" });
-  root.append(first, wrong, grid);
+    grid = h("div", { class: "room-grid" }),
+    others = h("div", {});
+  root.append(first, wrong, grid, others);
   const cards = new Map();
   let made = null;
   const choices = () => {
@@ -233,7 +259,8 @@ export async function show({ root, life, open }) {
     grid.append(card.node);
     life.every(kPicture_ms, () => card.look());
   };
-  let wrongShown = "";
+  let wrongShown = "",
+    othersShown = "";
   const look = async () => {
     const { watch } = await get("/api/room");
     if (!watch) {
@@ -245,6 +272,9 @@ export async function show({ root, life, open }) {
     const key = JSON.stringify([watch.broker, watch.trouble]);
     if (key !== wrongShown) put(wrong, troubles(watch));
     wrongShown = key;
+    const there = JSON.stringify([watch.strangers, watch.nearby_trouble]);
+    if (there !== othersShown) put(others, strangersList(watch));
+    othersShown = there;
     for (const s of stations) {
       if (!cards.has(s.name)) add(s.name);
       cards.get(s.name).show(s);

@@ -1,6 +1,8 @@
 #include <optional>
 
 #include "apps/console/room_station.h"
+#include "apps/console/routes.h"
+#include "apps/os/tcp_socket.h"
 #include "apps/record/session_file.h"
 #include "apps/room/watch.h"
 #include "tests/console/served.h"
@@ -148,6 +150,38 @@ TEST_F(ConsoleInARoom, TheOneThatWatchesShowsWhatItHearsAndPassesOnWhatIsAsked) 
   EXPECT_EQ(station_->post("/api/room/two/ask", {{"ask", "pause"}, {"session", "s"}}), 404);
   EXPECT_EQ(station_->client().Get("/api/room/one/picture")->status, 204);
   EXPECT_EQ(station_->client().Get("/api/room/two/picture")->status, 404);
+}
+
+TEST(PicturePlaces, AreFewAndNotForWhoIsSlow) {
+  PicturePlaces places;
+  const PicturePlaces::Time now{std::chrono::hours(1)};
+  EXPECT_TRUE(places.take("a", now));
+  EXPECT_FALSE(places.take("a", now)) << "one a station";
+  for (const char* other : {"b", "c", "d"}) EXPECT_TRUE(places.take(other, now));
+  EXPECT_FALSE(places.take("e", now)) << "no place is left";
+  places.giveBack("a", now, now + 100ms);
+  EXPECT_TRUE(places.take("e", now + 1s));
+  places.giveBack("b", now, now + 4s);
+  EXPECT_FALSE(places.take("b", now + 5s)) << "it was slow";
+  EXPECT_TRUE(places.take("a", now + 5s));
+  places.giveBack("a", now + 5s, now + 5s);
+  EXPECT_TRUE(places.take("b", now + 15s));
+}
+
+TEST_F(ConsoleInARoom, AStationThatKeepsItsPictureBackIsNotAskedAgainAtOnce) {
+  station_.emplace(folder_ / "home", sockets_.path(), "", room_.brokerSettings().parent_path());
+  os::TcpListener silent("127.0.0.1", 0);  // takes whoever comes, and says nothing
+  const room::StationLine line(
+      room::readPairing(pairing_, today()),
+      {"http://127.0.0.1:" + std::to_string(silent.port()) + "/", "", std::string(32, 'a'), "1"},
+      [](const room::Ask&) {
+        return room::Answer{"", false, ""};
+      });
+  ASSERT_TRUE(inTime([&] { return station_->get("/api/room")["watch"]["stations"].size() == 1; }));
+  EXPECT_EQ(station_->client().Get("/api/room/one/picture")->status, 204);
+  EXPECT_TRUE(silent.accept().open());
+  EXPECT_EQ(station_->client().Get("/api/room/one/picture")->status, 204);
+  EXPECT_FALSE(silent.accept().open());
 }
 
 TEST_F(ConsoleInARoom, AStationWhoseFileIsDamagedStartsAloneAndSaysSo) {

@@ -126,6 +126,7 @@ std::string libraryOf(const std::string& header) {
       {"embree3/", "Embree"},
       {"openssl/", "OpenSSL"},
       {"AL/", "OpenAL"},
+      {"avahi-", "Avahi"},
       {"mosquitto", "Mosquitto"},
       {"mqtt_protocol", "Mosquitto"}};
   for (const auto& [prefix, library] : kPrefixes)

@@ -139,7 +139,7 @@ Layers platformLayers() {
       {.folder = "apps/room",
        .ours = {"apps/os", "apps/runtime"},
        .never = {"apps/twin"},
-       .libraries = {"JSON", "OpenSSL", "Mosquitto"}},
+       .libraries = {"JSON", "OpenSSL", "Mosquitto", "Avahi"}},
       {.folder = "apps/live",
        .ours = {"anatomy/geometry", "haptics", "ar/codecs", "scene", "apps/os", "apps/training",
                 "apps/runtime", "apps/trial"},

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <thread>
+#include <vector>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/utc.h"
@@ -23,6 +25,18 @@ class Pairings : public testing::Test {
   Room room_ = Room::made(scratch_ / "room", "room.local", 8883, kDay);
   std::string rights() const { return *readWhole(scratch_ / "room" / "rights"); }
 };
+
+TEST_F(Pairings, ThatAreMadeAtOnceWaitForEachOther) {
+  constexpr int kAtOnce = 6;
+  std::vector<std::thread> all;
+  for (int i = 0; i < kAtOnce; ++i)
+    all.emplace_back([&, i] {
+      const RoomChange alone(scratch_ / "room");
+      Room::in(scratch_ / "room").pair("station" + std::to_string(i), kDay);
+    });
+  for (std::thread& one : all) one.join();
+  EXPECT_EQ(Room::in(scratch_ / "room").stations().size(), kAtOnce);
+}
 
 TEST_F(Pairings, AreReadAsTheyAreWrittenByTheirOwnerAlone) {
   const fs::path file = scratch_ / "one.palpa-pairing";

@@ -210,6 +210,76 @@ TEST_F(RoomOfStations, WhatIsAskedWithoutABrokerIsNotDoneLater) {
   EXPECT_EQ(asked_, 1);
 }
 
+TEST_F(RoomOfStations, AStopGoesBeforeWhatIsBeingDoneAndWhatWaits) {
+  const auto watch = this->watch();
+  std::atomic<bool> let_go{false}, busy{false};
+  std::mutex mutex;
+  std::vector<Ask::What> done;
+  StationLine line(pairing("one"), {"http://127.0.0.1:1/", "", std::string(32, 'a'), "1"},
+                   [&](const Ask& ask) {
+                     busy = true;
+                     if (ask.what != Ask::What::stop)
+                       runtime::comesTrue(seconds(20), [&] { return let_go.load(); });
+                     const std::lock_guard lock(mutex);
+                     done.push_back(ask.what);
+                     return Answer{"", true, ""};
+                   });
+  ASSERT_TRUE(soon([&] { return watch->stations()["one"].about.has_value(); }));
+  std::vector<std::thread> asking;
+  for (const char* id : {"a", "b", "c"})
+    asking.emplace_back([&, id] {
+      watch->ask("one", {id, "s", Ask::What::prepare, {}}, seconds(20));
+    });
+  EXPECT_TRUE(soon([&] { return busy.load(); }));
+  const auto stopped = watch->ask("one", {"d", "s", Ask::What::stop, {}}, seconds(20));
+  ASSERT_TRUE(stopped);
+  EXPECT_TRUE(stopped->done);
+  {
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(done, std::vector{Ask::What::stop});
+  }
+  let_go = true;
+  for (std::thread& one : asking) one.join();
+}
+
+TEST_F(RoomOfStations, UrgentWordsAreSaidBeforeAllThatWait) {
+  std::mutex mutex;
+  std::vector<std::string> heard;
+  const BrokerLine listens({.access = pairing("one").broker,
+                            .last_will = {},
+                            .topics = {topicOf("one", Topic::asks)},
+                            .greets = {},
+                            .hears = [&](const Said& said) {
+                              const std::lock_guard lock(mutex);
+                              heard.push_back(askIn(said.words).id);
+                            }});
+  ASSERT_TRUE(soon([&] { return listens.state().stands; }));
+  std::unique_ptr<BrokerLine> says;
+  std::atomic<bool> there{false};
+  const auto say = [&](const std::string& id, bool urgent) {
+    const Ask ask{id, "s", urgent ? Ask::What::stop : Ask::What::pause, {}};
+    says->say({topicOf("one", Topic::asks), wire(toJson(ask)), false, std::nullopt, urgent});
+  };
+  BrokerLine::Wish wish{
+      .access = room_.watcher(today()), .last_will = {}, .topics = {}, .greets = {}, .hears = {}};
+  wish.greets = [&]() -> std::vector<Said> {
+    runtime::comesTrue(seconds(20), [&] { return there.load(); });
+    for (int i = 0; i < 40; ++i) say("pause" + std::to_string(i), false);
+    for (const char* id : {"stop1", "stop2"}) say(id, true);
+    return {};
+  };
+  says = std::make_unique<BrokerLine>(std::move(wish));
+  there = true;
+  std::vector<std::string> expected{"stop1", "stop2"};
+  for (int i = 0; i < 40; ++i) expected.push_back("pause" + std::to_string(i));
+  EXPECT_TRUE(soon([&] {
+    const std::lock_guard lock(mutex);
+    return heard.size() == expected.size();
+  }));
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(heard, expected);
+}
+
 TEST_F(RoomOfStations, TwoByOneNameAreTold) {
   const Pairing both = pairing("one");
   const auto first = station(both), second = station(both);

@@ -1,44 +1,13 @@
 #!/usr/bin/env bash
 # tls_only.sh PROGRAM TAP: a station in one network namespace, its room (broker, console that
-#   watches) in another; a session is prepared, watched, stopped and ended from there, while TAP
-#   listens in on the wire between: TLS only. A plain word on that wire is found, too.
+#   watches, records on PostgreSQL where that is installed) in another; a session is prepared,
+#   watched, stopped and ended from there, its trial goes into the records, while TAP listens in on
+#   the wire between: TLS only. A plain word on that wire is found, too.
 set -uo pipefail
 palpa=$1 tap=$2
-if [ -z "${PALPA_TWO_NETWORKS:-}" ]; then
-  for tool in unshare ip mosquitto curl; do
-    command -v $tool >/dev/null || [ -x /usr/sbin/$tool ] || {
-      echo "Skipped: $tool is not installed"
-      exit 77
-    }
-  done
-  unshare -rn true 2>/dev/null || {
-    echo "Skipped: no network of its own may be made here"
-    exit 77
-  }
-  PALPA_TWO_NETWORKS=1 exec unshare -rn bash "$0" "$@"
-fi
-PATH=$PATH:/usr/sbin:/sbin
-work=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null; wait 2>/dev/null; rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-export HOME=$work XDG_STATE_HOME=$work/state XDG_DATA_HOME=$work/data XDG_RUNTIME_DIR=$work/run
-mkdir -m 700 "$work/run"
-cd "$work" || exit 1
-fail() {
-  echo "$1"
-  tail -n 5 "$work"/*.log
-  exit 1
-}
-# soon WORDS COMMAND...: within a minute
-soon() {
-  local words=$1
-  shift
-  for _ in $(seq 300); do
-    "$@" >/dev/null 2>&1 && return
-    sleep 0.2
-  done
-  fail "$words"
-}
+. "$(dirname "$0")/two_networks.sh"
+in_networks -rn "mosquitto" "$0" "$@"
+enter_work
 
 unshare -n sleep 600 &
 there=$!
@@ -52,8 +21,32 @@ ip addr add 10.77.0.1/24 dev wire && ip link set wire up
 room ip link set lo up
 room ip addr add 10.77.0.2/24 dev wire-there && room ip link set wire-there up
 
+# PostgreSQL refuses root, as whom we are here: it runs as another user of a namespace within.
+postgres=$(ls -d /usr/lib/postgresql/*/bin 2>/dev/null | tail -n 1)
+records=$work/records.sqlite
+nobody() { room unshare -U --map-user=1000 --map-group=1000 "$@"; }
+if [ -x "$postgres/postgres" ] && command -v openssl >/dev/null; then
+  export PGPASSWORD=$(head -c 16 /dev/urandom | base64)
+  printf '%s' "$PGPASSWORD" >password
+  nobody "$postgres/initdb" -D "$work/data" -U palpa -A scram-sha-256 --pwfile password --no-sync \
+    -E UTF8 --locale=C >postgres.log 2>&1 || fail "no database could be made"
+  openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2 -subj /CN=records \
+    -addext subjectAltName=IP:10.77.0.2 -keyout data/server.key -out data/server.crt 2>/dev/null ||
+    fail "no certificate for the records"
+  chmod 600 data/server.key
+  cp data/server.crt records.crt
+  # No connection that is not encrypted.
+  printf 'local all all scram-sha-256\nhostssl all all all scram-sha-256\n' >data/pg_hba.conf
+  begin_there unshare -U --map-user=1000 --map-group=1000 "$postgres/postgres" -D "$work/data" \
+    -h 10.77.0.2 -p 5432 -k "$work" -c ssl=on -c fsync=off >postgres.log 2>&1 &
+  soon "PostgreSQL did not start" \
+    psql -h "$work" -U palpa -d postgres -c 'CREATE DATABASE palpa'
+  records="postgresql://palpa@10.77.0.2/palpa?sslmode=verify-full&sslrootcert=$work/records.crt"
+fi
+trials() { psql -h "$work" -U palpa -d palpa -Atc 'SELECT count(*) FROM trials'; }
+
 "$palpa" console pair one --broker 10.77.0.2 --room "$work/room" >/dev/null || fail "no pairing"
-"$tap" wire >tap.txt &
+"$tap" wire 5432 >tap.txt &
 listens=$!
 soon "the tap does not listen" grep -q listening tap.txt
 begin_there mosquitto -c "$work/room/mosquitto.conf" >broker.log 2>&1 &
@@ -62,7 +55,9 @@ begin_there "$palpa" console --no-open --home "$work/watch" --port 8090 --room "
 head -c 24 /dev/urandom | base64 >token
 chmod 600 token
 "$palpa" console --no-open --home "$work/station" --listen 10.77.0.1 --port 8443 \
-  --token-file token --room one.palpa-pairing >station.log 2>&1 &
+  --token-file token --room one.palpa-pairing --records "$records" >station.log 2>&1 &
+"$palpa" records trainee add --id T007 --consent --records "$records" >/dev/null ||
+  fail "nobody came into the records"
 
 at=http://127.0.0.1:8090
 get() { room curl -sf "$at$1"; }
@@ -75,7 +70,8 @@ ask() {
 }
 stands() { get /api/room | grep -q "$1"; }
 soon "the station did not come" stands '"present":true'
-expert='{"ask":"prepare","session":"","wish":{"task":"paracentesis","operator":"expert"}}'
+wish='{"task":"paracentesis","operator":"expert","trainee":"T007"}'
+expert='{"ask":"prepare","session":"","wish":'$wish'}'
 soon "no session was prepared" ask "$expert"
 soon "no trial ran" stands '"state":"running"'
 picture() { [ "$(get /api/room/one/picture | head -c 2 | od -An -tx1)" = " ff d8" ]; }
@@ -88,6 +84,11 @@ soon "it did not end" stands '"state":"free"'
 events=$(get /api/room/one/events | grep -o '"number"' | wc -l)
 [ "$events" -ge 5 ] || fail "only $events events came"
 
+if [ "$records" != "$work/records.sqlite" ]; then
+  arrived() { [ "$(trials)" -ge 1 ]; }
+  soon "no trial came into the records" arrived
+fi
+
 kill $listens
 wait $listens || {
   cat tap.txt
@@ -96,7 +97,7 @@ wait $listens || {
 tail -n 1 tap.txt
 
 # The tap itself: a plain word, and it is told.
-"$tap" wire >plain.txt &
+"$tap" wire 5432 >plain.txt &
 listens=$!
 soon "the tap does not listen" grep -q listening plain.txt
 curl -s -m 5 http://10.77.0.1:8443/ >/dev/null
@@ -104,3 +105,5 @@ room curl -s -m 5 http://10.77.0.1:8443/ >/dev/null
 kill $listens
 wait $listens && fail "a plain word went by unheard"
 grep -q 'plain: GET /' plain.txt || fail "a plain word was not shown"
+[ "$records" = "$work/records.sqlite" ] && echo "Without records: PostgreSQL is not installed"
+exit 0

@@ -1,6 +1,6 @@
-// tls_tap INTERFACE: listens in until SIGTERM, then says what went by, in a line. Exit code 0:
-// beside ARP and ICMP nothing but TCP over IPv4, and in it TLS records only (RFC 8446, 5.1) from
-// the first byte of each connection on.
+// tls_tap INTERFACE [PORT]: listens in until SIGTERM, then says what went by, in a line. Exit code
+// 0: beside ARP and ICMP nothing but TCP over IPv4, and in it TLS records only (RFC 8446, 5.1) from
+// the first byte of each connection on; at PORT behind what asks PostgreSQL for TLS.
 #include <linux/if_ether.h>
 #include <linux/if_packet.h>
 #include <net/if.h>
@@ -9,9 +9,11 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <string>
@@ -25,6 +27,9 @@ volatile std::sig_atomic_t ending = 0;
 /// One direction of a connection: its bytes in order, each once, and whether they are TLS records.
 class Flow {
  public:
+  /// Before the first record these bytes may come, which say nothing: with them PostgreSQL asks for
+  /// TLS, and agrees.
+  void mayBeginWith(const std::string& opening) { opening_ = opening; }
   void take(std::uint32_t sequence, const std::uint8_t* bytes, std::size_t count, bool begins) {
     if (begins) {
       next_ = sequence + 1;
@@ -59,6 +64,13 @@ class Flow {
  private:
   void read() {
     constexpr std::size_t kHead = 5, kLongest = (1u << 14) + 256;
+    if (!opening_.empty()) {
+      if (pending_.size() < opening_.size()) return;
+      if (std::equal(opening_.begin(), opening_.end(), pending_.begin(), isSame))
+        pending_.erase(pending_.begin(),
+                       pending_.begin() + static_cast<std::ptrdiff_t>(opening_.size()));
+      opening_.clear();
+    }
     while (pending_.size() >= kHead && plain.empty()) {
       const bool known = pending_[0] >= 20 && pending_[0] <= 23 && pending_[1] == 3;
       const std::size_t length = pending_[3] * 256u + pending_[4];
@@ -74,6 +86,8 @@ class Flow {
       carried += kHead + length;
     }
   }
+  static bool isSame(char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }
+  std::string opening_;
   bool begun_ = false;
   std::uint32_t next_ = 0;
   std::map<std::uint32_t, std::vector<std::uint8_t>> waiting_;
@@ -83,6 +97,7 @@ class Flow {
 using Ends = std::tuple<std::uint32_t, std::uint16_t, std::uint32_t, std::uint16_t>;
 
 struct Wire {
+  int records_port = 0;  ///< of PostgreSQL; 0: there is none
   std::map<Ends, Flow> flows;
   std::size_t others = 0;  ///< packets with content that are no TCP over IPv4
 
@@ -107,8 +122,11 @@ struct Wire {
     std::memcpy(&tcp, bytes + ip_size, sizeof tcp);
     const std::size_t data = ip_size + tcp.doff * 4u;
     if (size < data) return;
-    flows[{ip.saddr, tcp.source, ip.daddr, tcp.dest}].take(ntohl(tcp.seq), bytes + data,
-                                                           size - data, tcp.syn);
+    const auto [at, is_new] = flows.try_emplace({ip.saddr, tcp.source, ip.daddr, tcp.dest});
+    if (is_new && ntohs(tcp.dest) == records_port)
+      at->second.mayBeginWith(std::string("\0\0\0\x08\x04\xd2\x16\x2f", 8));
+    if (is_new && ntohs(tcp.source) == records_port) at->second.mayBeginWith("S");
+    at->second.take(ntohl(tcp.seq), bytes + data, size - data, tcp.syn);
   }
 };
 
@@ -138,7 +156,7 @@ std::size_t missed(int tap) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  const int tap = count == 2 ? listenAt(arguments[1]) : -1;
+  const int tap = count >= 2 ? listenAt(arguments[1]) : -1;
   if (tap < 0) {
     std::perror("cannot listen there");
     return 2;
@@ -147,6 +165,7 @@ int main(int count, char** arguments) {
   std::puts("listening");
   std::fflush(stdout);
   Wire wire;
+  if (count >= 3) wire.records_port = std::atoi(arguments[2]);
   std::vector<std::uint8_t> packet(1 << 18);
   while (!ending) {
     sockaddr_ll from{};

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# at_a_console.sh PALPA WORK day|week: starts a console of the program PALPA on an empty virtual
-# bench in the folder WORK and lives an educator's day or week at it in Chromium.
+# at_a_console.sh PALPA WORK day|week|room: starts a console of the program PALPA on an empty
+# virtual bench in the folder WORK and lives an educator's day or week at it in Chromium, or watches
+# a room of two stations from it.
 # Exits with 77 (skipped) and says why where Chromium, Node or the two libraries cannot be had.
 set -euo pipefail
 palpa=$(realpath "$1") work=$(realpath -m "$2") part=$3 more=()
@@ -34,6 +35,16 @@ if [ "$part" = week ] && [ "${PALPA_FULL:-0}" = 1 ]; then  # a room that can be 
     --out "$work/filmed" >/dev/null
   more+=(--room-camera "$work/filmed/camera.mjpeg")
   export PALPA_ROOM_CAMERA=1
+fi
+
+if [ "$part" = room ]; then
+  broker=$(PATH=$PATH:/usr/sbin command -v mosquitto) || skip "no broker (Debian: mosquitto)"
+  port=$(node -e 'const s = require("net").createServer().listen(0, "127.0.0.1", () => {
+    console.log(s.address().port); s.close(); })')
+  "$palpa" console pair bench1 --broker localhost --port "$port" --room "$work/room" \
+    --out "$work/bench1" >/dev/null
+  "$palpa" console pair bench2 --room "$work/room" --out "$work/bench2" >/dev/null
+  more=(--room "$work/room")
 fi
 
 # The browser's driver and axe: each one file of the registry, without further
@@ -80,16 +91,33 @@ exit 1
 BEGIN
 # A session goes on without its console: one that a failed day left would run for ever.
 leave() {
-  kill "$(cat "$work/pid")" 2>/dev/null || true
+  kill "$(cat "$work/pid")" ${room[@]+"${room[@]}"} 2>/dev/null || true
   grep -lsaFf <(echo "$run/palpa/") /proc/[0-9]*/cmdline |
     while IFS=/ read -r _ _ pid _; do kill "$pid" 2>/dev/null || true; done || true
   rm -rf "$run"
 }
+room=()
 trap leave EXIT
+if [ "$part" = room ]; then
+  "$broker" -c "$work/room/mosquitto.conf" >"$work/broker.txt" 2>&1 &
+  room+=($!)
+  for station in bench1 bench2; do
+    "$palpa" console --no-open --home "$work/home-$station" --records "$work/records.sqlite" \
+      --room "$work/$station" >"$work/$station.txt" 2>&1 &
+    room+=($!)
+  done
+fi
 bash "$work/begin.sh"
 url=$(sed -n 's/^The console: //p' "$work/console.txt")
 cd "$work"
 export PALPA_CONSOLE_BEGIN=$work/begin.sh PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures
+if [ "$part" = room ]; then  # once both have come, the second one leaves
+  for _ in $(seq 300); do
+    [ "$(curl -sf "${url}api/room" | grep -o '"present":true' | wc -l)" = 2 ] && break
+    sleep 0.2
+  done
+  kill "${room[2]}"
+fi
 if [ "$part" = day ]; then
   # Beside a package.json that says what kind of module it is.
   cp "$top/assets/console/moments.js" "$work"
