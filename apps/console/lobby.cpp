@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/console/http_framing.h"
+#include "apps/console/web/http_framing.h"
 
 namespace palpa::console {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "apps/console/guard.h"
+#include "apps/console/web/guard.h"
 
 namespace palpa::console {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/console/guard.h"
+#include "apps/console/web/guard.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {

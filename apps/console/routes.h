@@ -13,7 +13,7 @@
 #include "apps/console/room_station.h"
 #include "apps/console/sessions.h"
 #include "apps/console/stations.h"
-#include "apps/console/web_server.h"
+#include "apps/console/web/web_server.h"
 #include "apps/language/shelf.h"
 #include "apps/live/live_sink.h"
 #include "apps/room/nearby.h"

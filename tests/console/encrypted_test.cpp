@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "anatomy/base/utc.h"
-#include "apps/console/web_server.h"
+#include "apps/console/web/web_server.h"
 #include "apps/os/tls/kept_identity.h"
 #include "apps/runtime/clock.h"
 #include "tests/console/visitor.h"

@@ -1,4 +1,4 @@
-#include "apps/console/guard.h"
+#include "apps/console/web/guard.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "apps/console/web_server.h"
+#include "apps/console/web/web_server.h"
 #include "apps/runtime/clock.h"
 #include "tests/console/visitor.h"
 #include "tests/support/scratch_folder.h"

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "apps/console/guard.h"
+#include "apps/console/web/guard.h"
 
 namespace palpa::console {
 namespace {

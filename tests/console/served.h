@@ -16,10 +16,10 @@
 
 #include "anatomy/base/error.h"
 #include "apps/console/console.h"
-#include "apps/console/guard.h"
-#include "apps/console/httplib_server.h"
 #include "apps/console/stations.h"
-#include "apps/console/web_server.h"
+#include "apps/console/web/guard.h"
+#include "apps/console/web/httplib_server.h"
+#include "apps/console/web/web_server.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 #include "apps/trial/trial_status.h"

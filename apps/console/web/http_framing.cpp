@@ -1,4 +1,4 @@
-#include "apps/console/http_framing.h"
+#include "apps/console/web/http_framing.h"
 
 #include <algorithm>
 #include <cstring>

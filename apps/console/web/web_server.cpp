@@ -1,11 +1,11 @@
-#include "apps/console/web_server.h"
+#include "apps/console/web/web_server.h"
 
 #include <algorithm>
 #include <memory>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
-#include "apps/console/http_framing.h"
+#include "apps/console/web/http_framing.h"
 #include "apps/os/real_time.h"
 #include "apps/os/socket.h"
 

@@ -1,4 +1,4 @@
-#include "apps/console/request_threads.h"
+#include "apps/console/web/request_threads.h"
 
 #include <exception>
 #include <utility>

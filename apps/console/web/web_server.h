@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/console/guard.h"
-#include "apps/console/httplib_server.h"
 #include "apps/console/lobby.h"
-#include "apps/console/request_threads.h"
+#include "apps/console/web/guard.h"
+#include "apps/console/web/httplib_server.h"
+#include "apps/console/web/request_threads.h"
 #include "apps/os/tls/tls_line.h"
 
 namespace palpa::console {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "apps/console/guard.h"
-#include "apps/console/httplib_server.h"
+#include "apps/console/web/guard.h"
+#include "apps/console/web/httplib_server.h"
 #include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
 
