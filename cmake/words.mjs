@@ -186,7 +186,7 @@ function messageOf(parts) {
     if (part.text === undefined) text += "\u0001";
     else
       text += part.text.replace(
-        /%%|%[-+ 0#]*(?:\*|\d+)?(?:\.(?:\*|\d+))?(?:hh|h|ll|l|z|t)?[dsfguixceX]/g,
+        /%%|%[-+0#]*(?:\*|\d+)?(?:\.(?:\*|\d+))?(?:hh|h|ll|l|z|t)?[dsfguixceX]/g,
         (m) => (m === "%%" ? "%" : "\u0001"),
       );
   }

@@ -1,7 +1,5 @@
 #include "apps/cli/spoken_output.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 
@@ -22,18 +20,8 @@ bool isForPeople(std::string_view line) {
   return first != std::string_view::npos && line[first] != '{' && line[first] != '[';
 }
 
-bool writeAll(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = write(descriptor, text.data(), text.size());
-    if (written <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-/// The stream's own: line by line, as far as it is there.
-template <int descriptor>
-ssize_t say(void*, const char* text, std::size_t size) {
+/// The stream that it stands before gets all, line by line as far as it is there.
+ssize_t say(void* before, const char* text, std::size_t size) {
   std::string out;
   for (std::string_view rest(text, size); !rest.empty();) {
     const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
@@ -41,21 +29,22 @@ ssize_t say(void*, const char* text, std::size_t size) {
     out += isForPeople(line) ? language::written().book.said(line) : std::string(line);
     rest.remove_prefix(end);
   }
-  return writeAll(descriptor, out) ? static_cast<ssize_t>(size) : 0;
+  FILE* const stream = static_cast<FILE*>(before);
+  const bool went = std::fwrite(out.data(), 1, out.size(), stream) == out.size();
+  return went && std::fflush(stream) == 0 ? static_cast<ssize_t>(size) : 0;
 }
 
-template <int descriptor>
-FILE* spokenStream() {
-  FILE* const stream = fopencookie(nullptr, "w", {nullptr, say<descriptor>, nullptr, nullptr});
-  if (stream) std::setvbuf(stream, nullptr, _IOLBF, kBuffer);
-  return stream;
+FILE* spoken(FILE* stream) {
+  std::fflush(stream);
+  FILE* const before = fopencookie(stream, "w", {nullptr, say, nullptr, nullptr});
+  if (!before) return stream;
+  std::setvbuf(before, nullptr, _IOLBF, kBuffer);
+  return before;
 }
 
 void speakOnTheTerminal() {
-  std::fflush(stdout);
-  std::fflush(stderr);
-  if (FILE* const out = spokenStream<STDOUT_FILENO>()) stdout = out;
-  if (FILE* const err = spokenStream<STDERR_FILENO>()) stderr = err;
+  stdout = spoken(stdout);
+  stderr = spoken(stderr);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-#include "apps/console/own_door.h"
 #include "apps/console/routes.h"
 #include "apps/console/web/httplib_server.h"
+#include "apps/console/web/own_door.h"
 #include "apps/language/markup.h"
 
 namespace palpa::console {

@@ -1,6 +1,5 @@
 #include "apps/console/place.h"
 
-#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -8,21 +7,6 @@
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
-namespace {
-
-constexpr std::size_t kLongestId = 64;
-
-bool plainName(const std::string& text) {
-  return !text.empty() && text.size() <= kLongestId &&
-         std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-                  c == '-' || c == '_';
-         });
-}
-
-}  // namespace
-
-bool isId(const std::string& text) { return plainName(text); }
 
 std::string newId() { return runtime::dateText("%Y%m%d-%H%M%S-") + randomKey().substr(0, 8); }
 
@@ -32,10 +16,9 @@ bool isShown(const std::string& name) {
        {std::pair<std::string_view, std::string_view>{"exam-", ".html"}, {"certificate-", ".pdf"}})
     if (name.size() > stem.size() + ending.size() && name.starts_with(stem) &&
         name.ends_with(ending))
-      return plainName(name.substr(0, name.size() - ending.size()));
+      return isId(name.substr(0, name.size() - ending.size()));
   return name.size() > 9 && name.rfind("view-", 0) == 0 &&
-         name.compare(name.size() - 4, 4, ".png") == 0 &&
-         plainName(name.substr(0, name.size() - 4));
+         name.compare(name.size() - 4, 4, ".png") == 0 && isId(name.substr(0, name.size() - 4));
 }
 
 }  // namespace palpa::console

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "apps/console/web/guard.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -23,9 +24,6 @@ struct ConsolePlace {
   std::filesystem::path jobs() const { return home / "jobs"; }
 };
 
-/// The console's own id of a session or job: letters, digits, - and _, at most 64; else it is no
-/// id, and no path is made of it.
-bool isId(const std::string& text);
 /// "20260301-123000-1a2b3c4d": in the order of time, never twice.
 std::string newId();
 using runtime::utcNow;

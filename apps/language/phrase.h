@@ -52,6 +52,9 @@ class PhraseIndex {
   std::map<std::string, std::vector<const Phrase*>, std::less<>> by_beginning_;
 };
 
+/// A UTF-8 text with a capital first letter, or without one: Latin and Greek; others have none.
+std::string withCapital(const std::string& text);
+std::string withoutCapital(const std::string& text);
 bool isLetter(char c);
 bool isLetterOrDigit(char c);
 char lower(char c);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "apps/language/letters.h"
-
 namespace palpa::language {
 namespace {
 

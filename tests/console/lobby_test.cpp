@@ -1,4 +1,4 @@
-#include "apps/console/lobby.h"
+#include "apps/console/web/lobby.h"
 
 #include <gtest/gtest.h>
 #include <netinet/tcp.h>

@@ -100,7 +100,7 @@ Layers platformLayers() {
   return {
       {.folder = "apps/os", .sealed = true},
       {.folder = "apps/os/tls", .ours = {"apps/os"}, .libraries = {"OpenSSL"}, .sealed = true},
-      {.folder = "apps/language", .sealed = true},
+      {.folder = "apps/language", .libraries = {"JSON"}, .sealed = true},
       {.folder = "apps/training", .libraries = {"JSON"}, .sealed = true},
       {.folder = "apps/presentation", .libraries = {"JSON"}, .sealed = true},
       {.folder = "apps/runtime",

@@ -59,7 +59,7 @@ TEST(Phrasebook, KeepsTheCaseOfAFirstLetter) {
 TEST(Phrasebook, LeavesNamesPathsAndOptionsAlone) {
   const Phrasebook book = bookOf({"passes", "replay", "main", "fast"});
   for (const char* text :
-       {"/work/passes/a", "passes.json", "--fast", "a_main", "mainly", "replay/1", "x@main.org"})
+       {"/home/passes/a", "passes.json", "--fast", "a_main", "mainly", "replay/1", "x@main.org"})
     EXPECT_EQ(book.said(text), text);
   EXPECT_EQ(book.said("two passes, fast"), "two PASSES, FAST");
 }

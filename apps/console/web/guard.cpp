@@ -7,7 +7,6 @@
 #include <openssl/rand.h>
 
 #include "anatomy/base/error.h"
-#include "apps/console/place.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 
@@ -27,6 +26,15 @@ bool isNumber(const std::string& id) {
 }
 
 }  // namespace
+
+bool isId(const std::string& text) {
+  constexpr std::size_t kLongest = 64;
+  return !text.empty() && text.size() <= kLongest &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                  c == '-' || c == '_';
+         });
+}
 
 const char* const kRoomPicture = "/api/room-picture";
 

@@ -7,10 +7,14 @@
 #include <unordered_set>
 #include <vector>
 
-#include "apps/console/own_door.h"
+#include "apps/console/web/own_door.h"
 
 /// Who may ask the console what. Judged from the request alone, before anything is done for it.
 namespace palpa::console {
+
+/// The console's own id of a session or job: letters, digits, - and _, at most 64; else it is no
+/// id, and no path is made of it.
+bool isId(const std::string& text);
 
 /// What of a request is judged.
 struct GuardedRequest {

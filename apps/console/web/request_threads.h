@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "apps/console/lobby.h"
+#include "apps/console/web/lobby.h"
 
 namespace palpa::console {
 

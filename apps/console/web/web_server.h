@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/console/lobby.h"
 #include "apps/console/web/guard.h"
 #include "apps/console/web/httplib_server.h"
+#include "apps/console/web/lobby.h"
 #include "apps/console/web/request_threads.h"
 #include "apps/os/tls/tls_line.h"
 

@@ -1,4 +1,4 @@
-#include "apps/console/own_door.h"
+#include "apps/console/web/own_door.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "apps/console/lobby.h"
+#include "apps/console/web/lobby.h"
 
 #include <algorithm>
 #include <map>
