@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -160,6 +161,12 @@ struct Hud {
 
   bool operator==(const Hud&) const = default;
 };
+
+/// How the words that are drawn are said: in the language of whoever looks. As it is drawn, so it
+/// is measured. Chosen once for a process, before its first window; until then as they are.
+using Wording = std::function<std::string(const std::string&)>;
+void sayThrough(Wording wording);
+std::string said(const std::string& english);
 
 /// A key, or several, and what they do.
 struct KeyHelp {

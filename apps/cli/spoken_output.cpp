@@ -6,7 +6,7 @@
 #include "anatomy/base/error.h"
 #include "apps/language/languages.h"
 #include "apps/station/assets.h"
-#include "scene/overlay/wording.h"
+#include "scene/scene_state.h"
 
 namespace palpa::cli {
 namespace {

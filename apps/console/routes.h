@@ -14,7 +14,7 @@
 #include "apps/console/sessions.h"
 #include "apps/console/stations.h"
 #include "apps/console/web/web_server.h"
-#include "apps/language/shelf.h"
+#include "apps/language/languages.h"
 #include "apps/live/live_sink.h"
 #include "apps/room/nearby.h"
 #include "apps/room/watch.h"

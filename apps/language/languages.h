@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/language/phrasebook.h"
@@ -40,6 +43,28 @@ Spoken languageOf(const std::filesystem::path& folder, const std::string& code);
 /// What somebody wishes to read: `given` (of a command line) where there is one, else the first
 /// language of LANGUAGE, LC_ALL, LC_MESSAGES or LANG ("el_GR.UTF-8") that `folder` has, else "en".
 std::string wishedLanguage(const std::filesystem::path& folder, const std::string& given);
+
+/// The languages of a program that speaks to several people at once, each read when it is asked for
+/// first. Any thread.
+class Shelf {
+ public:
+  explicit Shelf(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Throws UsageError for one that is not there.
+  std::shared_ptr<const Spoken> of(const std::string& code);
+  std::vector<Language> all() const { return languagesIn(folder_); }
+  /// `chosen` where it is one of ours; else the first of a browser's (RFC 9110, Accept-Language)
+  /// that is; else "en".
+  std::string best(const std::string& chosen, std::string_view accepted) const;
+  /// For a page that says texts itself: {"code", "name", "reviewed", "fromRight", "point", "group",
+  /// "messages": [[message, translation], ...]}.
+  std::string catalogueJson(const std::string& code) const;
+
+ private:
+  const std::filesystem::path folder_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const Spoken>> read_;
+};
 
 /// What this process says to people in its window, and what it writes for people on the terminal
 /// and in pages; as the locale of the C library these are the process's: chosen once, before its

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/overlay/wording.h"
-
 namespace palpa::scene {
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "scene/actors/force_arrows.h"
 #include "scene/actors/surface_map.h"
-#include "scene/overlay/wording.h"
+#include "scene/overlay/label.h"
 
 namespace palpa::scene {
 namespace {

@@ -18,7 +18,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
+
+#include "scene/scene_state.h"
 
 namespace palpa::scene {
 
@@ -69,6 +72,27 @@ void Plates::add(const Rect& where, const Rgba& colour, int corner_px) {
   colours->InsertNextTuple4(255 * colour[0], 255 * colour[1], 255 * colour[2], 255 * colour[3]);
   shapes_->GetPoints()->Modified();
   shapes_->Modified();
+}
+
+namespace {
+
+constexpr std::size_t kRemembered = 500;  // texts: most stand for many frames
+
+thread_local std::map<std::string, std::string> known;
+Wording& ofProcess() {
+  static Wording wording;
+  return wording;
+}
+
+}  // namespace
+
+void sayThrough(Wording wording) { ofProcess() = std::move(wording); }
+
+std::string said(const std::string& english) {
+  if (!ofProcess() || english.empty()) return english;
+  if (const auto found = known.find(english); found != known.end()) return found->second;
+  if (known.size() > kRemembered) known.clear();
+  return known[english] = ofProcess()(english);
 }
 
 namespace {

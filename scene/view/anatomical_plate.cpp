@@ -19,7 +19,6 @@
 #include "scene/actors/organ_actors.h"
 #include "scene/overlay/label.h"
 #include "scene/overlay/leaders.h"
-#include "scene/overlay/wording.h"
 #include "scene/renderer_setup.h"
 #include "scene/window/pixels.h"
 

@@ -12,7 +12,6 @@
 #include "scene/actors/organ_actors.h"
 #include "scene/overlay/hud.h"
 #include "scene/overlay/label.h"
-#include "scene/overlay/wording.h"
 #include "scene/renderer_setup.h"
 #include "scene/view/framing.h"
 #include "scene/window/pixels.h"

@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "scene/overlay/hud.h"
-#include "scene/overlay/wording.h"
+#include "scene/overlay/label.h"
 #include "scene/renderer_setup.h"
 
 namespace palpa::scene {

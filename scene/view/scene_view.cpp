@@ -20,7 +20,6 @@
 #include "scene/overlay/help_plate.h"
 #include "scene/overlay/hud.h"
 #include "scene/overlay/label.h"
-#include "scene/overlay/wording.h"
 #include "scene/renderer_setup.h"
 #include "scene/view/ar_view.h"
 #include "scene/view/navigation.h"

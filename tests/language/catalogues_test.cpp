@@ -8,7 +8,6 @@
 #include "anatomy/base/whole_file.h"
 #include "apps/language/languages.h"
 #include "apps/language/pseudo.h"
-#include "apps/language/shelf.h"
 #include "tests/support/files.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/setting.h"
