@@ -6,8 +6,8 @@ namespace palpa::language {
 namespace {
 
 constexpr int kALetter = 10, kAPhrase = 3, kAPlace = 1,
-              kOtherCase = 1;  // worth, and what they cost
-constexpr int kMostEffort = 100'000;
+              kOtherCase = 1;               // worth, and what they cost
+constexpr int kMostEffort = 100'000;        // comparisons at one place of the text
 constexpr std::size_t kLongestPutIn = 240;  // bytes
 constexpr int kMostEnds = 4;                // of what is put in, tried
 
@@ -144,14 +144,13 @@ Reading::Choice Reading::choiceAt(std::size_t at, Range range, const Choices& la
       kALetter * static_cast<int>(std::count_if(rest.begin(), rest.end(), isLetter)) - kAPhrase;
   trial.best = {later[end - range.begin].worth, nullptr, end, {}, false};
   if (isWithinAName(at, range)) return trial.best;
+  if (range.begin == 0 && range.end == text_.size()) effort_ = 0;
   tryAt(at, at, &trial);
   if (!isBreak(at, range)) return trial.best;
   const std::size_t last = std::min(range.end, at + kLongestPutIn);
   for (std::size_t head = at + 1; head < last; ++head) {
     tryAt(at, head, &trial);
-    if (text_[head] == ';' ||
-        (text_[head] == '.' && head + 1 < range.end && text_[head + 1] == ' '))
-      break;
+    if (text_[head] == ' ' && (text_[head - 1] == ';' || text_[head - 1] == '.')) break;
   }
   return trial.best;
 }

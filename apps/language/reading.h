@@ -13,7 +13,7 @@ namespace palpa::language {
 
 /// One English text, read as phrases: dynamic programming from its end to its beginning. `whole`
 /// are the phrases that begin with what stands fast, `behind` those that begin with a place. At
-/// most a hundred thousand comparisons; what is left then is read as no phrase.
+/// most a hundred thousand comparisons at each place; what is left then is read as no phrase.
 class Reading {
  public:
   Reading(std::string_view text, const PhraseIndex& whole, const PhraseIndex& behind)

@@ -5,7 +5,7 @@ const kALetter = 10;
 const kAPhrase = 3;
 const kAPlace = 1;
 const kOtherCase = 1;
-const kMostEffort = 100000;
+const kMostEffort = 100000; // comparisons at one place of the text
 const kLongestPutIn = 240;
 const kMostEnds = 4;
 const kLongest = 800;
@@ -97,13 +97,13 @@ class Reading {
     trial.best = { worth: later[next - begin].worth, next };
     trial.most = kALetter * this.text.slice(at, end).replace(/[^A-Za-z]/g, "").length - kAPhrase;
     if (this.#isWithinAName(at, begin)) return trial.best;
+    if (begin === 0 && end === this.text.length) this.#effort = 0;
     this.book.whole.at(this.text, at, end, (phrase) => this.#try(phrase, at, at, trial));
     if (!this.#isBreak(at, begin, end)) return trial.best;
     const last = Math.min(end, at + kLongestPutIn);
     for (let head = at + 1; head < last; head += 1) {
       this.book.behind.at(this.text, head, end, (phrase) => this.#try(phrase, at, head, trial));
-      const c = this.text[head];
-      if (c === ";" || (c === "." && head + 1 < end && this.text[head + 1] === " ")) break;
+      if (this.text[head] === " " && ";.".includes(this.text[head - 1])) break;
     }
     return trial.best;
   }
