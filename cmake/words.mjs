@@ -197,7 +197,7 @@ const words = new Set(
   readFileSync(`${top}assets/languages/words.txt`, "utf8").split("\n").filter(Boolean),
 );
 const kNoWords =
-  /\b(SELECT|INSERT|CREATE|UPDATE|DELETE|PRAGMA|FROM|WHERE|NULL|VALUES)\b|^[\s\u0001]*(<|@|#[0-9a-f]{3,})|;$|:\/\/\S+$|^[a-z-]+: ?\S+;|^\S*\/\S*$|^\$/;
+  /\b(SELECT|INSERT|CREATE|UPDATE|DELETE|PRAGMA|FROM|WHERE|NULL|VALUES)\b|^[\s\u0001]*(<|@|#[0-9a-f]{3,})|;$|:\/\/\S+$|\*\.[a-z]+$|^[a-z-]+: ?\S+;|^\S*\/\S*$|^\$/;
 
 /** As matched: pieces between line ends and wide gaps, without outer blanks and marks. */
 function piecesOf(message) {
@@ -220,12 +220,13 @@ function bare(piece) {
 
 function isForPeople(piece) {
   const letters = piece.replace(/\u0001/g, " ");
-  if (/^palpa [a-z]+ .*--/.test(letters)) return false;
+  if (/^palpa [a-z]+ .*--|^--[a-z-]+\s|^[a-z]+-[a-z]+ \u0001$/.test(piece)) return false;
   if (!/[A-Za-z]{2,}/.test(letters) || /[\0-\x1f\x7f]/.test(letters.replaceAll("\u0001", "")))
     return false;
   if (kNoWords.test(piece)) return false;
-  if (/[{}<>=]|::|\w\(|\\/.test(letters.replace(/<[A-Z]+>/g, ""))) return false;
-  if (/\s/.test(letters.trim())) return /[a-z]{2,}/.test(letters);
+  if (/[{}<>=]|::|[A-Za-z]\(|\\/.test(letters.replace(/<[A-Z]+>/g, ""))) return false;
+  if (/\s/.test(letters.trim()) || /[a-z]{2,} \u0001|\u0001 [a-z]{2,}/.test(piece))
+    return /[a-z]{2,}/.test(letters) || words.has(letters);
   return words.has(letters) || /^[A-Z][a-z]{2,}$/.test(letters);
 }
 

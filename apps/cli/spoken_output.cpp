@@ -17,7 +17,8 @@ constexpr std::size_t kBuffer = 1 << 16;  // bytes: no line of ours is cut
 /// Objects and lists are for programs.
 bool isForPeople(std::string_view line) {
   const std::size_t first = line.find_first_not_of(' ');
-  return first != std::string_view::npos && line[first] != '{' && line[first] != '[';
+  return first != std::string_view::npos &&
+         std::string_view("{}[]\"").find(line[first]) == std::string_view::npos;
 }
 
 /// The stream that it stands before gets all, line by line as far as it is there.
@@ -67,7 +68,13 @@ std::string takeLanguage(std::vector<std::string>* words) {
 }
 
 void speakTo(const std::vector<std::string>& words, const std::string& given) {
-  const std::filesystem::path folder = station::assetFile("languages");
+  std::filesystem::path folder;
+  try {
+    folder = station::assetFile("languages");
+  } catch (const Error&) {
+    if (!given.empty()) throw;
+    return;  // English will say what is wrong
+  }
   const std::string code = language::wishedLanguage(folder, given);
   const bool is_read = std::find(words.begin(), words.end(), "--live") != words.end();
   language::speak(language::languageOf(folder, code));
