@@ -152,6 +152,7 @@ void sayHowItIsKnown(const console::OpenedConsole& opened) {
 
 void serve(const ConsoleOptions& o) {
   const console::ConsoleSettings settings = settingsOf(o);
+  setenv("LANGUAGE", "en", 1);  // what it starts writes for it; pages say that in any language
   serveConsole(settings, [&](const console::OpenedConsole& opened) {
     std::printf("The console: %s\n", opened.url.c_str());
     sayHowItIsKnown(opened);

@@ -10,11 +10,6 @@ using nlohmann::json;
 
 constexpr char kChosen[] = "palpa-language";  // a cookie that the pages set
 
-std::string languageOfWhoAsks(Console& c, const httplib::Request& q) {
-  return c.languages.best(cookieNamed(kChosen, q.get_header_value("Cookie")),
-                          q.get_header_value("Accept-Language"));
-}
-
 json listOfLanguages(const Console& c) {
   json all = json::array();
   for (const language::Language& one : c.languages.all())
@@ -23,6 +18,11 @@ json listOfLanguages(const Console& c) {
 }
 
 }  // namespace
+
+std::string languageOfWhoAsks(const Console& c, const httplib::Request& q) {
+  return c.languages.best(cookieNamed(kChosen, q.get_header_value("Cookie")),
+                          q.get_header_value("Accept-Language"));
+}
 
 void sendPage(Console& c, const httplib::Request& q, httplib::Response& r,
               const std::filesystem::path& file) {

@@ -90,8 +90,9 @@ std::string beginSession(Console& console, SessionWish wish);
 /// A whole file as an answer; 404 where it is none.
 void sendFile(httplib::Response& response, const std::filesystem::path& file,
               const std::string& type);
-/// The same for a page of ours, in the language of who asks: as his browser says (the cookie that a
-/// choice on our pages sets, else Accept-Language).
+/// A code: as a browser's cookie says, which a choice on our pages sets, else its Accept-Language.
+std::string languageOfWhoAsks(const Console& console, const httplib::Request& request);
+/// The same for a page of ours, in the language of who asks.
 void sendPage(Console& console, const httplib::Request& request, httplib::Response& response,
               const std::filesystem::path& file);
 /// {"state", "page", "message"} of a job that makes a page.

@@ -95,6 +95,7 @@ std::vector<std::string> sessionCommand(const Console& c, const TaskChoice& task
     throw UsageError("a film belongs to a trainee's records", "the room cannot be filmed",
                      "Choose the trainee, who has to agree");
   if (wish.film) a.insert(a.end(), {"--film-room", c.place.room_camera, "--film-agreed"});
+  if (!wish.language.empty()) a.insert(a.end(), {"--language", wish.language});
   addStation(c.place, kind, &a);
   return a;
 }
@@ -157,7 +158,8 @@ void addSessionRoutes(WebServer& server, Console& c) {
   server.Get("/api/sessions",
              [&c](const httplib::Request&, httplib::Response& r) { answer(r, c.sessions.list()); });
   server.Post("/api/sessions", [&c](const httplib::Request& q, httplib::Response& r) {
-    const SessionWish wish = readWish(bodyOf(q));
+    SessionWish wish = readWish(bodyOf(q));
+    wish.language = languageOfWhoAsks(c, q);
     if (c.sessions.oneRuns())
       return refuse(r, 409, "a session is running already: end it first, or wait until it is over");
     answer(r, {{"id", beginSession(c, wish)}}, 201);

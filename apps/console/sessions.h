@@ -31,6 +31,7 @@ struct SessionWish {
   bool film = false;       ///< of the room: who trains has agreed, for this session
   std::string protocol;    ///< of a study: its file; the task then follows from it
   bool simulated = false;  ///< who performs, or the station
+  std::string language;    ///< of its window: a code; empty: English
   bool blind = false;      ///< of a study: an educator must not be told what was drawn
 };
 /// Throws UsageError where a field is missing, of the wrong kind or out of range.
