@@ -24,7 +24,9 @@ class Reading {
  private:
   struct Range {
     std::size_t begin, end;
-    auto operator<=>(const Range&) const = default;
+    bool operator<(const Range& other) const {
+      return begin != other.begin ? begin < other.begin : end < other.end;
+    }
   };
   /// What is best done at one place of the text.
   struct Choice {
