@@ -3,8 +3,8 @@
 //
 // Words stand in the sources as they are: "cannot reach " + name + ": look ...". What is joined by
 // + (or stands within a `template`, or about a % of printf) is one message with {1}, {2} ... for
-// what is put in. A single word counts where it begins with a capital, or stands in
-// assets/languages/words.txt: most others are names of fields.
+// what is put in; so is a key, "[P]" (scene/key_places.h). A single word counts where it begins
+// with a capital, or stands in assets/languages/words.txt: most others are names of fields.
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { messagesOfData, messagesOfPage } from "./words_data.mjs";
 
@@ -192,7 +192,7 @@ function messageOf(parts) {
     if (part.text === undefined) text += "\u0001";
     else
       text += part.text.replace(
-        /%%|%[-+0#]*(?:\*|\d+)?(?:\.(?:\*|\d+))?(?:hh|h|ll|l|z|t)?[dsfguixceX]/g,
+        /%%|%[-+0#]*(?:\*|\d+)?(?:\.(?:\*|\d+))?(?:hh|h|ll|l|z|t)?[dsfguixceX]|\[[A-Z,.]\]/g,
         (m) => (m === "%%" ? "%" : "\u0001"),
       );
   }

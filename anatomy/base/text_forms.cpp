@@ -82,4 +82,14 @@ std::string plainText(std::string_view text, std::size_t most) {
   return plain;
 }
 
+std::u32string lettersOf(std::string_view text) {
+  std::u32string letters;
+  while (!text.empty()) {
+    const Read read = firstOf(text);
+    letters += read.character == kNone ? U'\ufffd' : read.character;
+    text.remove_prefix(read.size);
+  }
+  return letters;
+}
+
 }  // namespace palpa

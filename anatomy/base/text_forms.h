@@ -17,4 +17,7 @@ std::string csvField(const std::string& text);
 /// become '?'. At most `most` bytes, never half a character.
 std::string plainText(std::string_view text, std::size_t most);
 
+/// The characters of UTF-8, as Unicode numbers them; each byte that is none of it becomes U+FFFD.
+std::u32string lettersOf(std::string_view text);
+
 }  // namespace palpa

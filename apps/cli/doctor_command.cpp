@@ -162,6 +162,7 @@ Findings examined(const DoctorOptions& o) {
   all.push_back(judgeSound(sound::askSpeaker(kSoundAnswers_ns)));
   all.push_back(recordsOf(o));
   all.push_back(judgeDisk(measureDisk(o.out)));
+  all.push_back(judgeLetters());
   all.push_back(judgeDate(runtime::utcNow(), kMade_utc));
   all.push_back(askLocale());
   return all;

@@ -96,7 +96,9 @@ void playInWindow(evidence::RecordedShow& recorded, const Cut& cut, const Replay
     player.advance(static_cast<double>(now_ns - last_ns) * 1e-9);
     last_ns = now_ns;
     shown->show(player.at_s(), player.words());
-    for (const std::string& key : shown->input().keys) player.key(key, shown->input().shift);
+    const scene::ViewInput& input = shown->input();
+    for (std::size_t i = 0; i < input.keys.size(); ++i)
+      player.key(input.keys[i], input.typed[i], input.shift);
     clock.sleepUntil(now_ns + kFrame_ns);
   }
 }

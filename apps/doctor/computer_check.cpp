@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/fonts.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/doctor/finding.h"
@@ -117,6 +118,15 @@ Finding judgeDisk(const DiskFacts& facts) {
                      static_cast<double>(facts.free_bytes - kLeast) / (10.0 * kMegabyte)),
             "Free the disk before a course"};
   return {"disk", State::well, free};
+}
+
+Finding judgeLetters(const fs::path& root) {
+  for (const char* letter : {"A", "\uac00"})
+    if (const Font& font = fontOf(letter); !isThere(font, root))
+      return {"letters", State::note,
+              std::string("boxes stand in the place of ") + font.letters + " ones",
+              std::string("Install the package ") + font.package};
+  return {"letters", State::well, "Latin, Greek, Cyrillic and Korean ones can be drawn"};
 }
 
 Finding judgeDate(const std::string& now_utc, const std::string& built_utc) {

@@ -34,6 +34,10 @@ struct DiskFacts {
 DiskFacts measureDisk(const std::filesystem::path& folder);
 Finding judgeDisk(const DiskFacts& facts);
 
+/// Whether everything that windows and paper say can be drawn; `root`: where the system's files
+/// are.
+Finding judgeLetters(const std::filesystem::path& root = "/");
+
 /// The computer's date, by which sessions and calibrations are dated. `now_utc` as in a calibration
 /// file; `built_utc`: when the program was made: earlier than that it cannot be.
 Finding judgeDate(const std::string& now_utc, const std::string& built_utc);

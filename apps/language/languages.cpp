@@ -7,7 +7,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/nearest_word.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/language/pseudo.h"
+#include "apps/language/po_file.h"
 
 namespace palpa::language {
 namespace {

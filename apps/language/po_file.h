@@ -20,4 +20,10 @@ struct PoFile {
 /// `name` is for words about what is wrong. Throws UsageError.
 PoFile readPo(std::string_view text, const std::string& name);
 
+inline constexpr char kPseudo[] = "qps", kPseudoFromRight[] = "qps-rtl";
+
+/// Each message in a language that nobody speaks: every letter with a mark, a third longer. What
+/// people see without marks has no message; what is cut has no room for other languages.
+std::vector<PoFile::Message> pseudoMessages(const PoFile& messages);
+
 }  // namespace palpa::language

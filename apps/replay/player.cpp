@@ -25,20 +25,20 @@ void Player::advance(double seconds) {
   if (at_s_ >= to_s_) paused_ = true;
 }
 
-void Player::key(const std::string& symbol, bool shift) {
+void Player::key(const std::string& name, const std::string& typed, bool shift) {
   static const std::map<std::string, double> kJumps{
       {"Left", -1}, {"Right", 1}, {"Down", -5}, {"Up", 5}};
-  if (const auto jump = kJumps.find(symbol); jump != kJumps.end()) {
+  if (const auto jump = kJumps.find(name); jump != kJumps.end()) {
     if (shift) paused_ = true;
     moveTo(at_s_ + (shift ? std::copysign(kFrame, jump->second) : jump->second));
   }
-  if (symbol == "Home") moveTo(from_s_);
-  if (symbol == "End") moveTo(to_s_);
-  if (symbol == "plus" || symbol == "equal" || symbol == "KP_Add")
+  if (name == "Home") moveTo(from_s_);
+  if (name == "End") moveTo(to_s_);
+  if (typed == "plus" || typed == "equal" || typed == "KP_Add")
     speed_ = within(speed_ * std::sqrt(2.0));
-  if (symbol == "minus" || symbol == "KP_Subtract") speed_ = within(speed_ / std::sqrt(2.0));
-  if (symbol == "Escape" || symbol == "q") left_ = true;
-  if (symbol != "space") return;
+  if (typed == "minus" || typed == "KP_Subtract") speed_ = within(speed_ / std::sqrt(2.0));
+  if (name == "Escape" || name == "q") left_ = true;
+  if (name != "space") return;
   if (at_s_ >= to_s_) moveTo(from_s_);
   paused_ = !paused_;
 }

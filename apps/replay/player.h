@@ -17,8 +17,9 @@ class Player {
   /// From `from_s` to `to_s` of the trial.
   Player(double from_s, double to_s, double speed);
 
-  void advance(double seconds);                     ///< of the viewer's time
-  void key(const std::string& symbol, bool shift);  ///< X key symbol
+  void advance(double seconds);  ///< of the viewer's time
+  /// A key that was pressed, by its place's name and by what it typed (scene/view/scene_view.h).
+  void key(const std::string& name, const std::string& typed, bool shift);
   double at_s() const { return at_s_; }
   double speed() const { return speed_; }
   bool paused() const { return paused_; }

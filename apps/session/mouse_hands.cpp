@@ -66,10 +66,8 @@ void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
     if (key == "Right") request_.turn_medial += kTurnPerKey;
     if (key == "Up") request_.turn_cephalad += kTurnPerKey;
     if (key == "Down") request_.turn_cephalad -= kTurnPerKey;
-    if (key == draw || (key == "Z" && !setup_.left_handed))
-      request_.plunger = std::min(1.0, request_.plunger + kPlungerPerKey);
-    if (key == push || (key == "X" && !setup_.left_handed))
-      request_.plunger = std::max(0.0, request_.plunger - kPlungerPerKey);
+    if (key == draw) request_.plunger = std::min(1.0, request_.plunger + kPlungerPerKey);
+    if (key == push) request_.plunger = std::max(0.0, request_.plunger - kPlungerPerKey);
   }
   request_.turn_medial = std::clamp(request_.turn_medial, -kSteepestTurn, kSteepestTurn);
   request_.turn_cephalad = std::clamp(request_.turn_cephalad, -kSteepestTurn, kSteepestTurn);
@@ -186,8 +184,7 @@ void PointingHand::handle(const scene::ViewInput& input, const scene::ArGeometry
     }
   }
   request_.press = input.left_button;
-  if (std::any_of(input.keys.begin(), input.keys.end(),
-                  [](const std::string& key) { return key == "m" || key == "M"; })) {
+  if (std::count(input.keys.begin(), input.keys.end(), "m") > 0) {
     request_.marks += now_ns - mark_key_ns_ > kRepeats;
     mark_key_ns_ = now_ns;
   }

@@ -218,7 +218,8 @@ void SessionFrame::publish(const scene::SceneState& state, const trial::TrialSta
                            std::int64_t now_ns) {
   if (sound_) remark(sound_->see(state, status, now_ns));
   if (!live_) return;
-  live_->show(state.hud, status, now_ns);
+  const scene::KeyPrints prints = stage_.view ? stage_.view->keyPrints() : scene::KeyPrints();
+  live_->show(scene::withKeys(state.hud, prints), status, now_ns);
   if (stage_.view && picture_wanted_) live_->picture(stage_.view->capture(), now_ns);
 }
 

@@ -59,7 +59,7 @@ std::string SessionSound::see(const scene::SceneState& shown, const trial::Trial
 std::string SessionSound::handle(const std::vector<std::string>& keys) {
   std::string words;
   for (const std::string& key : keys) {
-    if (key != "s" && key != "S") continue;
+    if (key != "s") continue;
     audible_ = !audible_;
     ++switched_;
     speaker_.setAudible(audible_);

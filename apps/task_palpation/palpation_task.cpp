@@ -294,7 +294,7 @@ std::string PalpationTask::doing() const {
     if (mark.mobility == 0) return which + ": does it move? 3 fixed, 4 mobile";
     if (!(mark.diameter > 0)) return which + ": how large? 5: 10 mm, 6: 15, 7: 20, 8: 25";
   }
-  return "Felt a lump? The device's button, or M with a mouse. Finished? D";
+  return "Felt a lump? The device's button, or [M] with a mouse. Finished? [D]";
 }
 
 void PalpationTask::command(haptics::TickCommands& commands) const {

@@ -10,7 +10,7 @@ using assess::PulseRhythm;
 std::string taskText(const PulseStatus& status) {
   switch (status.part) {
     case PulsePart::find:
-      return "Find the " + status.artery + " pulse, mark it with the button, then D";
+      return "Find the " + status.artery + " pulse, mark it with the button, then [D]";
     case PulsePart::count:
       return "Count the beats: " +
              std::to_string(static_cast<int>(std::ceil(status.count_left_s))) + " s left";

@@ -31,7 +31,7 @@ class PulseScene final : public trial::TrialScene {
   PulseStatus status_;
 };
 
-/// What the screen asks: "Find the radial pulse, mark it with the button, then D", "Count: 12 s
+/// What the screen asks: "Find the radial pulse, mark it with the button, then [D]", "Count: 12 s
 /// left", "How many beats? 7_", "The rhythm? 1 regular, 2 regular with premature beats, 3
 /// irregular".
 std::string taskText(const PulseStatus& status);

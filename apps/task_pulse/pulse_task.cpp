@@ -244,7 +244,7 @@ void PulseTask::type(const std::string& digits, std::int64_t now_ns) {
 
 void PulseTask::sayNumber(std::int64_t now_ns) {
   if (typed_.empty()) {
-    status().notice = "Type the number of beats, then D";
+    status().notice = "Type the number of beats, then [D]";
     return;
   }
   const int beats = std::stoi(typed_);

@@ -23,7 +23,7 @@ CauseWords wordsOf(haptics::SafetyCause cause) {
   using haptics::SafetyCause;
   switch (cause) {
     case SafetyCause::energy:
-      return {"the device gave too much energy", "R re-arms", "the device gave too much energy"};
+      return {"the device gave too much energy", "[R] re-arms", "the device gave too much energy"};
     case SafetyCause::silent_device:
       return {"the device is silent", "Look at its cable, close other programs",
               "the device was silent"};

@@ -1,5 +1,7 @@
 #include "apps/trial/keys.h"
 
+#include "scene/key_places.h"
+
 namespace palpa::trial {
 namespace {
 
@@ -17,18 +19,18 @@ void send(Channels& channels, UserCommand command, const std::string& reason = "
 std::vector<KeyHelp> saidIn(Engine engine) {
   switch (engine) {
     case Engine::palpation:
-      return {{"M", "here is a lump (a device: its button)"},
+      return {{"[M]", "here is a lump (a device: its button)"},
               {"1, 2", "it is soft, hard"},
               {"3, 4", "it is fixed, mobile"},
               {"5, 6, 7, 8", "it is 10, 15, 20, 25 mm large"},
-              {"D", "done"}};
+              {"[D]", "done"}};
     case Engine::squeeze:
     case Engine::friction:
-      return {{"1, 2, ...", "the answer: which one"}, {"D", "the next one, or done"}};
+      return {{"1, 2, ...", "the answer: which one"}, {"[D]", "the next one, or done"}};
     case Engine::pulse:
-      return {{"M", "here is the pulse (a device: its button)"},
+      return {{"[M]", "here is the pulse (a device: its button)"},
               {"0 to 9", "the count; then 1, 2, 3 for the rhythm"},
-              {"D", "begins the count, says the number"}};
+              {"[D]", "begins the count, says the number"}};
     case Engine::search:
       return {{"nothing", "stay in the middle of the rough one: that chooses it"}};
     case Engine::needle:
@@ -43,7 +45,7 @@ std::vector<KeyHelp> movedBy(HeldBy held, bool left_handed) {
       return {{"drag", "moves the needle over the skin"},
               {"wheel", "moves it along itself, in and out"},
               {"arrows", "turn it about its entry"},
-              {left_handed ? "., comma" : "Z, X", "draw the plunger, push it"}};
+              {left_handed ? "[.], [,]" : "[Z], [X]", "draw the plunger, push it"}};
     case HeldBy::mouse_finger:
       return {{"mouse", "moves the finger; hold the left button to press"}};
     case HeldBy::device:
@@ -54,11 +56,11 @@ std::vector<KeyHelp> movedBy(HeldBy held, bool left_handed) {
 
 std::vector<KeyHelp> ofEverySession() {
   return {{"Enter", "starts, continues"},
-          {"P", "pauses"},
-          {"A", "ends the trial without a result"},
+          {"[P]", "pauses"},
+          {"[A]", "ends the trial without a result"},
           {"F5 to F8", "void: interrupted, technical fault, trainee stopped, other"},
           {"Space", "EMERGENCY STOP: forces are off"},
-          {"R", "re-arms after it"},
+          {"[R]", "re-arms after it"},
           {"F11", "full screen, and back"},
           {"Escape, twice", "ends the session"}};
 }
@@ -74,17 +76,17 @@ void handleKeys(const scene::ViewInput& input, Channels& channels, runtime::Stop
   for (const std::string& key : input.keys) {
     if (key == "Return" || key == "KP_Enter")
       send(channels, UserCommand::start);
-    else if (key == "p" || key == "P")
+    else if (key == "p")
       send(channels, UserCommand::pause);
-    else if (key == "a" || key == "A")
+    else if (key == "a")
       send(channels, UserCommand::abort);
     else if (key == "space")
       stop.press();
-    else if (key == "r" || key == "R")
+    else if (key == "r")
       send(channels, UserCommand::rearm);
     else if (key == "Escape")
       send(channels, UserCommand::escape);
-    else if (key == "d" || key == "D")
+    else if (key == "d")
       send(channels, UserCommand::done);
     else if (key.size() == 1 && key[0] >= '0' && key[0] <= '9')
       send(channels, UserCommand::choose, key);
@@ -96,9 +98,9 @@ void handleKeys(const scene::ViewInput& input, Channels& channels, runtime::Stop
 std::vector<KeyHelp> keysOf(const KeysInUse& use) {
   std::vector<KeyHelp> all = movedBy(use.held, use.left_handed);
   append(all, saidIn(use.engine));
-  if (use.free_skin) all.push_back({"T", "the skin: clear, solid, gone"});
-  if (use.one_fixed_view) all.push_back({"V", "the next fixed view"});
-  if (use.sound) all.push_back({"S", "the sound: off, and on"});
+  if (use.free_skin) all.push_back({"[T]", "the skin: clear, solid, gone"});
+  if (use.one_fixed_view) all.push_back({"[V]", "the next fixed view"});
+  if (use.sound) all.push_back({"[S]", "the sound: off, and on"});
   append(all, ofEverySession());
   return all;
 }
@@ -107,7 +109,7 @@ std::string movedWords(HeldBy held, bool left_handed) {
   switch (held) {
     case HeldBy::mouse_needle:
       return std::string("Drag: over the skin. Arrows: turn. Wheel: in and out. ") +
-             (left_handed ? ". (full stop)" : "Z") + ": draw the plunger";
+             (left_handed ? "[.]" : "[Z]") + ": draw the plunger";
     case HeldBy::mouse_finger:
       return "Mouse: moves the finger. Left button: presses";
     case HeldBy::device:
@@ -121,7 +123,7 @@ std::string keysText(Engine engine) {
   for (const KeyHelp& one :
        keysOf({.engine = engine, .free_skin = true, .one_fixed_view = true, .sound = true}))
     text += (text.empty() ? "Keys: " : "; ") + one.key + ": " + one.words;
-  return text + "; ? or F1: shows these in the window";
+  return scene::withKeys(text, {}) + "; ? or F1: shows these in the window";
 }
 
 }  // namespace palpa::trial

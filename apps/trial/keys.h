@@ -28,10 +28,12 @@ struct KeysInUse {
   bool sound = false;           ///< it may be heard
 };
 /// All keys of a session with what they do, as the window shows them: what the trainee needs first.
+/// Letters as scene/key_places.h names them: "[P]".
 std::vector<scene::KeyHelp> keysOf(const KeysInUse& use);
 /// The same as one line of a command's help: "Keys: Enter starts or continues, ...".
 std::string keysText(training::Engine engine);
-/// How the tool is moved, in one line for the window; empty: a device says it by itself.
+/// How the tool is moved, in one line for the window, with "[Z]"; empty: a device says it by
+/// itself.
 std::string movedWords(HeldBy held, bool left_handed);
 
 }  // namespace palpa::trial

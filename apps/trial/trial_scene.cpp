@@ -74,9 +74,9 @@ TrialScene::TrialScene(const Stage& stage, runtime::Bus& bus, Channels& channels
 /// T: the skin's look. V: the next fixed view. ? or F1: the keys.
 void TrialScene::handle(const scene::ViewInput& input) {
   for (const std::string& key : input.keys) {
-    if (key == "t" || key == "T") state_.skin = nextSkin(stage_.shown, state_.skin);
+    if (key == "t") state_.skin = nextSkin(stage_.shown, state_.skin);
     if (key == "question" || key == "F1") help_ = !help_;
-    if (key == "v" || key == "V") state_.fixed_view = (state_.fixed_view + 1) % scene::kFixedViews;
+    if (key == "v") state_.fixed_view = (state_.fixed_view + 1) % scene::kFixedViews;
   }
 }
 

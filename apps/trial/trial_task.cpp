@@ -285,7 +285,7 @@ void TrialTask::stopAll(std::int64_t now_ns) {
   if (status_.emergency_stop) return;  // a key that is held presses many times
   status_.emergency_stop = true;
   status_.alarm = true;
-  status_.notice = "EMERGENCY STOP: forces are off. R re-arms, then Enter continues";
+  status_.notice = "EMERGENCY STOP: forces are off. [R] re-arms, then Enter continues";
   if (status_.state == TrialState::running) status_.state = TrialState::paused;
   report(now_ns, EventKind::emergency_stop, "Emergency stop");
 }
@@ -327,11 +327,12 @@ std::string TrialTask::canDo() const {
   if (lead_.automatic) return "";
   if (status_.state == TrialState::ended)
     return stays_ && status_.trial >= status_.trials ? "Enter closes" : "";
-  if (status_.state == TrialState::paused) return "Enter continues, A ends the trial, ? shows keys";
+  if (status_.state == TrialState::paused)
+    return "Enter continues, [A] ends the trial, ? shows keys";
   if (status_.state != TrialState::running) return "? shows keys";
   const std::string own = doing();
   if (!own.empty()) return own + ". ? shows keys";
-  return moved_.empty() ? "P pauses, ? shows keys" : moved_ + ". ? shows keys";
+  return moved_.empty() ? "[P] pauses, ? shows keys" : moved_ + ". ? shows keys";
 }
 
 void TrialTask::publish(std::int64_t now_ns) {

@@ -70,7 +70,7 @@ export class LiveControls {
       this.stop,
     );
     life.listen(window, "keydown", (e) => {
-      if ((e.ctrlKey || e.metaKey) && e.key === ".") {
+      if ((e.ctrlKey || e.metaKey) && (e.key === "." || /^Period$/.test(e.code))) {
         e.preventDefault();
         this.#emergency();
       }

@@ -8,6 +8,11 @@ import { during, tick } from "./parts.js";
 const kWords = { good: "good", bad: "error", near: "near miss", note: "note", neutral: "" };
 let keyMarks = true;
 
+/** By what it types; where that is no Latin letter, by where it lies. */
+const isKey = (e, letter) =>
+  e.key.toLowerCase() === letter ||
+  (e.code === `Key${letter.toUpperCase()}` && !/^[a-z]$/i.test(e.key));
+
 const typing = (target) =>
   target instanceof Element &&
   target.closest(
@@ -109,7 +114,7 @@ export class LiveEvents {
       if (
         keyMarks &&
         !this.over &&
-        e.key.toLowerCase() === "m" &&
+        isKey(e, "m") &&
         !e.ctrlKey &&
         !e.metaKey &&
         !e.altKey &&

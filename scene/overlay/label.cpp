@@ -17,10 +17,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numbers>
 
+#include "anatomy/base/fonts.h"
 #include "scene/scene_state.h"
 
 namespace palpa::scene {
@@ -99,17 +99,19 @@ namespace {
 
 constexpr int kDpi = 72;  // makes a font's points pixels
 
-const char* fontFile(bool bold) {
-  static const char* const plain = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-  static const char* const heavy = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
-  static const bool found = std::filesystem::exists(plain) && std::filesystem::exists(heavy);
-  if (!found) return nullptr;
-  return bold ? heavy : plain;
+/// Null: the machine lacks it.
+const char* fontFile(const std::string& text, bool bold) {
+  static std::map<const Font*, bool> there;
+  const Font& font = fontOf(text);
+  const auto [found, is_new] = there.try_emplace(&font);
+  if (is_new) found->second = isThere(font);
+  if (!found->second) return nullptr;
+  return bold ? font.bold : font.plain;
 }
 
 std::array<int, 4> bounds(const std::string& text, const TextStyle& style) {
   vtkNew<vtkTextProperty> property;
-  apply(style, *property);
+  apply(style, text, *property);
   std::array<int, 4> box{};
   vtkTextRenderer::GetInstance()->GetBoundingBox(property, text, box.data(), kDpi);
   return box;
@@ -117,8 +119,8 @@ std::array<int, 4> bounds(const std::string& text, const TextStyle& style) {
 
 }  // namespace
 
-void apply(const TextStyle& style, vtkTextProperty& property) {
-  if (const char* file = fontFile(style.bold)) {
+void apply(const TextStyle& style, const std::string& text, vtkTextProperty& property) {
+  if (const char* file = fontFile(text, style.bold)) {
     property.SetFontFamily(VTK_FONT_FILE);
     property.SetFontFile(file);
   } else {
@@ -156,7 +158,7 @@ Label::Label(vtkRenderer& renderer) : renderer_(renderer) {
 Label::~Label() { renderer_.RemoveActor2D(actor_); }
 
 void Label::set(const std::string& text, const TextStyle& style, int x, int y, Align align) {
-  apply(style, *actor_->GetTextProperty());
+  apply(style, text, *actor_->GetTextProperty());
   switch (align) {
     case Align::left:
       actor_->GetTextProperty()->SetJustificationToLeft();

@@ -47,8 +47,9 @@ struct TextStyle {
   Rgb colour = colour::kText;
 };
 
-/// DejaVu Sans when the machine has it (VTK's own fonts lack Greek and many accents).
-void apply(const TextStyle& style, vtkTextProperty& property);
+/// In the font that has the text's letters, when the machine has it (anatomy/base/fonts.h; VTK's
+/// own fonts lack Greek and many accents).
+void apply(const TextStyle& style, const std::string& text, vtkTextProperty& property);
 
 int textWidth(const std::string& text, const TextStyle& style);  ///< pixels
 int lineHeight(const TextStyle& style);                          ///< pixels, one line

@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
+
+#include "scene/window/keyboard.h"
 
 namespace palpa::scene {
 
@@ -79,6 +82,7 @@ void Navigation::apply(const ViewInput& input, const Rect& view, int window_heig
 struct WindowInput::Events {
   vtkNew<vtkRenderWindowInteractor> interactor;
   vtkNew<vtkCallbackCommand> listener;
+  std::unique_ptr<Keyboard> keyboard;
   ViewInput now;
 
   static void receive(vtkObject*, unsigned long event, void* self, void*) {
@@ -125,9 +129,6 @@ void WindowInput::Events::take(unsigned long event) {
     case vtkCommand::MouseWheelBackwardEvent:
       now.wheel -= 1;
       break;
-    case vtkCommand::KeyPressEvent:
-      if (const char* key = interactor->GetKeySym()) now.keys.emplace_back(key);
-      break;
     default:
       break;
   }
@@ -153,6 +154,8 @@ WindowInput::WindowInput(vtkRenderWindow& window) : events_(std::make_unique<Eve
         vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent})
     interactor.AddObserver(event, events_->listener);
   interactor.Initialize();
+  events_->keyboard =
+      std::make_unique<Keyboard>(reinterpret_cast<std::uintptr_t>(window.GetGenericWindowId()));
 }
 
 /// VTK keeps every interactor in a list until its loop has ended, and asks all of them for events:
@@ -171,9 +174,14 @@ WindowInput::~WindowInput() {
 ViewInput WindowInput::poll() {
   events_->interactor->ProcessEvents();
   ViewInput result = events_->now;
-  events_->now.keys.clear();
+  for (PressedKey& press : events_->keyboard->pressed()) {
+    result.keys.push_back(std::move(press.name));
+    result.typed.push_back(std::move(press.typed));
+  }
   events_->now.wheel = 0;
   return result;
 }
+
+const KeyPrints& WindowInput::prints() const { return events_->keyboard->prints(); }
 
 }  // namespace palpa::scene

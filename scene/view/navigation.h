@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "scene/key_places.h"
 #include "scene/panels.h"
 #include "scene/scene_state.h"
 #include "scene/view/scene_view.h"
@@ -58,7 +59,8 @@ class WindowInput {
   explicit WindowInput(vtkRenderWindow& window);  ///< after the window's first frame
   ~WindowInput();
 
-  ViewInput poll();  ///< everything since the last call
+  ViewInput poll();                 ///< everything since the last call
+  const KeyPrints& prints() const;  ///< of the keyboard, as it was at the last poll
 
  private:
   struct Events;

@@ -77,6 +77,7 @@ struct SceneView::Impl {
   void show(const SceneState& state);
   void writeWords(const SceneState& state);
   void mergeEyes();
+  KeyPrints keyPrints() const { return input ? input->prints() : KeyPrints(); }
 
   GlContextProvider& context;
   vtkRenderWindow& window;
@@ -197,10 +198,13 @@ void SceneView::Impl::show(const SceneState& state) {
 void SceneView::Impl::writeWords(const SceneState& state) {
   const std::vector<ForceArrow> forces =
       ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
-  Hud text = state.hud;
+  const KeyPrints prints = keyPrints();
+  Hud text = withKeys(state.hud, prints);
   // Over the keys stands nothing else but what was said last.
   if (!state.help.empty()) text = saidLast(text);
-  help.update(inWords(state.help), helpPanel(panels.ar, text_px()), text_px());
+  std::vector<KeyHelp> keys = state.help;
+  for (KeyHelp& row : keys) row.key = withKeys(row.key, prints);
+  help.update(inWords(keys), helpPanel(panels.ar, text_px()), text_px());
   if (ar.showsPatient() && state.surface_map) text.scale = scaleOf(*state.surface_map);
   text = inWords(std::move(text));
   Surroundings around = ar.toolOnScreen(state, 0);
@@ -269,6 +273,8 @@ ViewInput SceneView::poll() {
     impl_->navigation.apply(input, impl_->ar.picture(), impl_->size[1], impl_->ar.orbit());
   return input;
 }
+
+KeyPrints SceneView::keyPrints() const { return impl_->keyPrints(); }
 
 ArGeometry SceneView::arGeometry(std::size_t of) const {
   const Rect& picture = impl_->ar.eyePanel(of);

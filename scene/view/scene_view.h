@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "anatomy/patient.h"
+#include "scene/key_places.h"
 #include "scene/panels.h"
 #include "scene/scene_state.h"
 #include "scene/window/gl_context.h"
@@ -17,7 +18,10 @@ namespace palpa::scene {
 /// left.
 struct ViewInput {
   bool closed = false;
-  std::vector<std::string> keys;    ///< X key symbols, e.g. "space", "Escape", "p", "Left"
+  /// By place what bears a letter or a digit in the US layout ("p", "1", "comma";
+  /// scene/key_places.h), other keys by X's symbol: "space", "Escape", "Left", "question"
+  std::vector<std::string> keys;
+  std::vector<std::string> typed;   ///< the same, by what they type in the layout that is on
   double mouse_x = 0, mouse_y = 0;  ///< where two eyes have one picture, in that of each
   double wheel = 0;                 ///< notches since the last call
   bool left_button = false, right_button = false, middle_button = false;
@@ -58,12 +62,16 @@ class SceneView {
   SceneView(GlContextProvider& context, const anatomy::Patient& patient, const ViewLayout& layout);
   ~SceneView();
 
-  void show(const SceneState& state);  ///< updates the graph and renders one frame
-  Image capture() const;               ///< the last frame, RGB, top row first
+  /// Updates the graph and renders one frame; keys in words as the keyboard prints them.
+  void show(const SceneState& state);
+  Image capture() const;  ///< the last frame, RGB, top row first
   /// The last frame of one eye (0 left, 1 right; a stereo view) into a texture of the same context.
   void copyEye(std::size_t eye, const TextureTarget& target) const;
   /// Events of an interactive window; empty otherwise. F11 fills the monitor, and again goes back.
   ViewInput poll();
+
+  /// What the window's keyboard prints, as it was at the last poll; empty without a window: as US.
+  KeyPrints keyPrints() const;
 
   ArGeometry arGeometry(std::size_t eye = 0) const;  ///< 1: the right one's, in stereo
   /// What words cover of the last frame (before each eye of a headset: of both), pixels of the

@@ -3,25 +3,21 @@
 #include <xcb/xcb.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <set>
+
+#include "scene/window/x11_server.h"
 
 namespace palpa::scene {
 namespace {
 
 constexpr xcb_keysym_t kSpace = 0x20;
-constexpr std::uint8_t kFromAnotherProgram = 0x80;  // bit of an event's type
-
-/// xcb's answers are the caller's to free.
-template <class T>
-using Answer = std::unique_ptr<T, decltype([](T* answer) { std::free(answer); })>;
 
 /// The keys that give a space.
 std::set<xcb_keycode_t> spaceKeys(xcb_connection_t* server) {
   const xcb_setup_t* const setup = xcb_get_setup(server);
   const auto first = setup->min_keycode;
   const auto count = static_cast<std::uint8_t>(setup->max_keycode - first + 1);
-  const Answer<xcb_get_keyboard_mapping_reply_t> mapping(xcb_get_keyboard_mapping_reply(
+  const XcbAnswer<xcb_get_keyboard_mapping_reply_t> mapping(xcb_get_keyboard_mapping_reply(
       server, xcb_get_keyboard_mapping(server, first, count), nullptr));
   std::set<xcb_keycode_t> keys;
   if (!mapping) return keys;
@@ -61,7 +57,7 @@ int StopKey::descriptor() const {
 bool StopKey::pressed() {
   bool pressed = false;
   while (true) {
-    const Answer<xcb_generic_event_t> event(xcb_poll_for_event(connection_->server));
+    const XcbAnswer<xcb_generic_event_t> event(xcb_poll_for_event(connection_->server));
     if (!event) return pressed;
     if ((event->response_type & ~kFromAnotherProgram) != XCB_KEY_PRESS) continue;
     const auto* key = reinterpret_cast<const xcb_key_press_event_t*>(event.get());

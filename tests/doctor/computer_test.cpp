@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/fonts.h"
 #include "apps/doctor/computer_check.h"
 #include "says.h"
 #include "tests/support/files.h"
@@ -44,6 +45,20 @@ TEST(DoctorsComputer, LoopDiskAndDateAreJudged) {
   expectSays(judgeDate("1970-01-01T00:03:00Z", "2026-01-01T00:00:00Z"), State::ill, "1970-01-01");
   expectSays(judgeDate("2027-01-01T00:03:00Z", "2026-01-01T00:00:00Z"), State::well,
              "2027-01-01 00:03");
+}
+
+TEST(DoctorsComputer, LettersOfEveryLanguageCanBeDrawn) {
+  expectSays(judgeLetters(), State::well, "Korean");
+  const fs::path root = test::freshFolder("doctor", "letters");
+  const Finding none = judgeLetters(root);
+  expectSays(none, State::note, "Greek and Cyrillic");
+  EXPECT_EQ(none.fix, "Install the package fonts-dejavu-core");
+  for (const char* file : {fontOf("A").plain, fontOf("A").bold}) {
+    const auto place = root / std::string(file).substr(1);
+    fs::create_directories(place.parent_path());
+    std::ofstream(place) << "a font";
+  }
+  EXPECT_EQ(judgeLetters(root).fix, "Install the package fonts-nanum");
 }
 
 TEST(DoctorsComputer, MonitorsAndWhyThereIsNoWindow) {

@@ -163,7 +163,7 @@ TEST(PointingHand, AKeyThatIsHeldMarksOnce) {
   }
   EXPECT_EQ(marks, 1);
   wait(1);
-  p.input.keys = {"M"};
+  p.input.keys = {"m"};
   p.say();
   wait(0.5);
   EXPECT_EQ(marks, 2);

@@ -7,7 +7,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/language/languages.h"
-#include "apps/language/pseudo.h"
+#include "apps/language/po_file.h"
 #include "tests/support/files.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/setting.h"
@@ -24,7 +24,7 @@ std::vector<std::string> shipped() {
 }
 
 TEST(Catalogues, AreThoseThatAreShipped) {
-  EXPECT_EQ(shipped(), (std::vector<std::string>{"el", "en", "fr"}));
+  EXPECT_EQ(shipped(), (std::vector<std::string>{"el", "en", "es", "fr"}));
 }
 
 TEST(Catalogues, HaveEveryMessage) {

@@ -8,6 +8,19 @@
 namespace palpa::replay {
 namespace {
 
+/// A key that types what it is called by.
+void press(Player& player, const char* key, bool shift) { player.key(key, key, shift); }
+
+TEST(Player, SpeedGoesByWhatAKeyTypesAndTheRestByItsPlace) {
+  Player player(0, 10, 1);
+  player.key("6", "minus", false);  // a French keyboard's
+  EXPECT_NEAR(player.speed(), std::sqrt(0.5), 1e-12);
+  player.key("a", "q", false);
+  EXPECT_FALSE(player.left());
+  player.key("q", "Greek_semicolon", false);
+  EXPECT_TRUE(player.left());
+}
+
 TEST(Player, GoesOnAtItsSpeedAndStopsAtTheEnd) {
   Player player(2, 10, 0.5);
   player.advance(4);
@@ -16,7 +29,7 @@ TEST(Player, GoesOnAtItsSpeedAndStopsAtTheEnd) {
   player.advance(100);
   EXPECT_EQ(player.at_s(), 10);
   EXPECT_TRUE(player.paused());
-  player.key("space", false);  // from the start again
+  press(player, "space", false);  // from the start again
   EXPECT_EQ(player.at_s(), 2);
   EXPECT_FALSE(player.paused());
 }
@@ -24,40 +37,40 @@ TEST(Player, GoesOnAtItsSpeedAndStopsAtTheEnd) {
 TEST(Player, PausedItStands) {
   Player player(0, 10, 1);
   player.advance(3);
-  player.key("space", false);
+  press(player, "space", false);
   player.advance(3);
   EXPECT_EQ(player.at_s(), 3);
   EXPECT_EQ(player.words(), "paused");
-  player.key("Right", true);
+  press(player, "Right", true);
   EXPECT_NEAR(player.at_s(), 3.04, 1e-12);
-  player.key("Left", true);
+  press(player, "Left", true);
   EXPECT_NEAR(player.at_s(), 3, 1e-12);
 }
 
 TEST(Player, ArrowsJumpAndNeverLeaveTheCut) {
   Player player(1, 8, 1);
-  player.key("Left", false);
+  press(player, "Left", false);
   EXPECT_EQ(player.at_s(), 1);
-  player.key("Right", false);
+  press(player, "Right", false);
   EXPECT_EQ(player.at_s(), 2);
-  player.key("Up", false);
+  press(player, "Up", false);
   EXPECT_EQ(player.at_s(), 7);
-  player.key("Up", false);
+  press(player, "Up", false);
   EXPECT_EQ(player.at_s(), 8);
-  player.key("Home", false);
+  press(player, "Home", false);
   EXPECT_EQ(player.at_s(), 1);
   EXPECT_FALSE(player.left());
-  player.key("Escape", false);
+  press(player, "Escape", false);
   EXPECT_TRUE(player.left());
 }
 
 TEST(Player, SpeedStaysWithinItsLimits) {
   Player player(0, 1, 1);
-  for (int i = 0; i < 2; ++i) player.key("plus", false);
+  for (int i = 0; i < 2; ++i) press(player, "plus", false);
   EXPECT_NEAR(player.speed(), 2, 1e-12);
-  for (int i = 0; i < 40; ++i) player.key("minus", false);
+  for (int i = 0; i < 40; ++i) press(player, "minus", false);
   EXPECT_EQ(player.speed(), kSlowest);
-  for (int i = 0; i < 40; ++i) player.key("plus", false);
+  for (int i = 0; i < 40; ++i) press(player, "plus", false);
   EXPECT_EQ(player.speed(), kFastest);
 }
 

@@ -132,7 +132,7 @@ TEST_F(Session, TheKeyTurnsItOffAndOn) {
   stop_.press();
   step();
   EXPECT_EQ(largestIn(taken_->next(40)), 0);
-  EXPECT_EQ(sound_.handle({"S"}), "The sound is on");
+  EXPECT_EQ(sound_.handle({"s"}), "The sound is on");
   EXPECT_GT(largestIn(taken_->next(40)), 0) << "the burst is still on";
   EXPECT_EQ(sound_.facts(), "played on a fake device; key S was pressed 2 times");
 }

@@ -104,7 +104,7 @@ TEST(PulseScene, TheScreenSaysWhatIsToBeDone) {
   PulseStatus status;
   status.artery = "radial";
   status.part = PulsePart::find;
-  EXPECT_EQ(taskText(status), "Find the radial pulse, mark it with the button, then D");
+  EXPECT_EQ(taskText(status), "Find the radial pulse, mark it with the button, then [D]");
   status.part = PulsePart::count;
   status.count_left_s = 11.2;
   EXPECT_EQ(taskText(status), "Count the beats: 12 s left");

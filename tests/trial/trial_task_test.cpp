@@ -110,7 +110,7 @@ TEST_F(Rehearsing, TheLastResultStaysUntilItIsClosed) {
     channels.requests_to_task.push({UserCommand::start, ""});
     step();
     EXPECT_EQ(task.state(), TrialState::running) << trial;
-    EXPECT_EQ(task.canBeDone(), "P pauses, ? shows keys");
+    EXPECT_EQ(task.canBeDone(), "[P] pauses, ? shows keys");
     task.endNow(now);
     run(400);
   }

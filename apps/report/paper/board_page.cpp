@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/fonts.h"
 #include "anatomy/base/whole_file.h"
 
 namespace palpa::report {
@@ -63,7 +64,7 @@ class Pen {
   /// All at once: no seams where rectangles touch.
   void fill() const { cairo_fill(cairo_); }
   void words(double x, double y, double size, const std::string& text) const {
-    cairo_select_font_face(cairo_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+    cairo_select_font_face(cairo_, fontOf(text).family, CAIRO_FONT_SLANT_NORMAL,
                            CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo_, size);
     cairo_move_to(cairo_, x, y);

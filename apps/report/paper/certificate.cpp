@@ -6,6 +6,7 @@
 #include <cairo/cairo-pdf.h>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/fonts.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/language/languages.h"
 
@@ -30,8 +31,9 @@ class CertificateSheet {
   }
   /// Broken between words where the line is full.
   void words(const std::string& text, double size, bool bold, double left = kPaperEdge) {
-    use(size, bold);
-    std::istringstream in(language::written().book.said(text));
+    const std::string in_words = language::written().book.said(text);
+    use(fontOf(in_words), size, bold);
+    std::istringstream in(in_words);
     std::string line;
     for (std::string word; in >> word;) {
       const std::string longer = line.empty() ? word : line + ' ' + word;
@@ -57,8 +59,8 @@ class CertificateSheet {
   }
 
  private:
-  void use(double size, bool bold) {
-    cairo_select_font_face(cairo_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+  void use(const Font& font, double size, bool bold) {
+    cairo_select_font_face(cairo_, font.family, CAIRO_FONT_SLANT_NORMAL,
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo_, size);
     cairo_set_source_rgb(cairo_, 0.09, 0.13, 0.17);
