@@ -25,7 +25,7 @@ export async function show({ root, open }) {
       hint:
         "It is in the file that was named when the console was started. " +
         "Whoever runs the station can tell you.",
-      go: "Enter",
+      go: "Enter the console",
       work,
     }),
   );
