@@ -1,14 +1,10 @@
 #include "apps/link/lrs_client.h"
 
-#include <httplib.h>
-
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <utility>
 
 #include "anatomy/base/error.h"
-#include "apps/link/bounded_client.h"
 #include "apps/os/socket.h"
 
 namespace palpa::link {
@@ -113,132 +109,34 @@ Login loginFor(const std::string& host, const std::string& user) {
                        host + " login " + user + " password ...");
 }
 
-namespace {
-
-constexpr char kVersionHeader[] = "X-Experience-API-Version", kVersion[] = "1.0.3";
-// A body in pieces says the length of each: more bytes than it holds
-constexpr std::size_t kLongestBytes = 2 * LrsClient::kLongestAnswer;
-constexpr char kTooLong[] = "the answer is too long (at most 1 MB)",
-               kTooSlow[] = "the answer did not end within the time allowed";
-
-std::string inWords(httplib::Error error) {
-  switch (error) {
-    case httplib::Error::Connection:
-      return "nobody answers there";
-    case httplib::Error::ConnectionTimeout:
-      return "no connection within the time allowed";
-    case httplib::Error::Read:
-      return "the answer did not come, broke off or was none";
-    case httplib::Error::Write:
-      return "the connection broke off";
-    case httplib::Error::SSLConnection:
-      return "no protected connection could be agreed on";
-    case httplib::Error::SSLLoadingCerts:
-      return "the trusted certificates cannot be read";
-    case httplib::Error::SSLServerVerification:
-      return "its certificate is not trusted, or is another computer's";
-    default:
-      return "the request failed";
-  }
+LrsClient::LrsClient(const Endpoint& endpoint, const Login& login, const LrsTimes& times)
+    : endpoint_(endpoint), token_(login.token), client_(endpoint, times) {
+  if (!login.user.empty()) client_.login(login.user, login.password);
 }
 
-}  // namespace
-
-struct LrsClient::Impl {
-  Impl(const Endpoint& e, const Login& login, const LrsTimes& times)
-      : endpoint(e),
-        whole(times.whole_s),
-        client(boundedClient(e.host, portOf(e), e.origin.starts_with("https"),
-                             {.body = kLongestBytes}, count)) {
-    os::surviveBrokenConnections();  // a protection that is being agreed on may break
-    client->set_connection_timeout(times.connect_s);
-    client->set_read_timeout(times.answer_s);
-    client->set_write_timeout(times.answer_s);
-    client->set_keep_alive(true);
-    client->set_tcp_nodelay(
-        true);  // head and body are written apart, and would wait for each other
-    client->set_follow_location(false);
-    client->set_decompress(false);  // none is asked for, and a small one may grow without bound
-    client->enable_server_certificate_verification(true);
-    client->set_socket_options([this](socket_t socket) { connection.use(socket); });
-    if (!login.user.empty()) client->set_basic_auth(login.user, login.password);
-  }
-
-  std::string resource(const char* parameter, const std::string& id) const {
-    return endpoint.path + "/statements?" + parameter + "=" + id;
-  }
-
-  LrsAnswer answerTo(httplib::Request request) {
-    std::string body;
-    request.headers.insert(headers.begin(), headers.end());
-    request.response_handler = [this](const httplib::Response&) {
-      count.in_body = true;
-      count.bytes = 0;
-      return true;
-    };
-    request.content_receiver = [&](const char* bytes, std::size_t size, std::uint64_t,
-                                   std::uint64_t) {
-      count.too_long |= body.size() + size > kLongestAnswer;
-      if (!count.too_long) body.append(bytes, size);
-      return !count.too_long;
-    };
-    count = {};
-    ExchangeWatch watch(connection, whole);
-    const httplib::Result result = client->send(request);
-    const bool too_slow = watch.end();
-    LrsAnswer answer;
-    if (count.too_long)
-      answer.trouble = kTooLong;
-    else if (too_slow)
-      answer.trouble = kTooSlow;
-    else if (!result)
-      answer.trouble = inWords(result.error());
-    else
-      answer = answerOf(*result, std::move(body));
-    return answer;
-  }
-
-  static LrsAnswer answerOf(const httplib::Response& response, std::string body) {
-    return {response.status, response.get_header_value(kVersionHeader).rfind("1.", 0) == 0,
-            std::move(body), ""};
-  }
-
-  /// As the address says, else the usual one.
-  static int portOf(const Endpoint& e) {
-    const std::size_t colon = e.origin.rfind(':'), bracket = e.origin.rfind(']');
-    const bool stated = colon != std::string::npos && colon > e.origin.find("//") &&
-                        (bracket == std::string::npos || colon > bracket) &&
-                        colon + 1 < e.origin.size();
-    if (stated) return std::stoi(e.origin.substr(colon + 1));
-    return e.origin.starts_with("https") ? 443 : 80;
-  }
-
-  const Endpoint endpoint;
-  const std::chrono::seconds whole;
-  AnswerCount count;
-  WatchedConnection connection;
-  const std::unique_ptr<httplib::ClientImpl> client;
-  const httplib::Headers headers{{kVersionHeader, kVersion}, {"Accept", "application/json"}};
-};
-
-LrsClient::LrsClient(const Endpoint& endpoint, const Login& login, const LrsTimes& times)
-    : impl_(std::make_unique<Impl>(endpoint, login, times)) {}
-LrsClient::~LrsClient() = default;
+LrsAnswer LrsClient::answerTo(WebRequest request) {
+  constexpr char kVersionHeader[] = "X-Experience-API-Version", kVersion[] = "1.0.3";
+  request.path = endpoint_.path + request.path;
+  request.headers.emplace_back(kVersionHeader, kVersion);
+  request.headers.emplace_back("Accept", "application/json");
+  if (!token_.empty()) request.headers.emplace_back("Authorization", "Basic " + token_);
+  WebAnswer answer = client_.answerTo(request);
+  return {answer.status, answer.xapi_version.rfind("1.", 0) == 0, std::move(answer.body),
+          std::move(answer.trouble)};
+}
 
 LrsAnswer LrsClient::put(const std::string& id, const std::string& statement) {
-  httplib::Request request;
-  request.method = "PUT";
-  request.path = impl_->resource("statementId", id);
-  request.body = statement;
-  request.headers.emplace("Content-Type", "application/json");
-  return impl_->answerTo(std::move(request));
+  return answerTo({.method = "PUT",
+                   .path = "/statements?statementId=" + id,
+                   .body = statement,
+                   .content_type = "application/json"});
 }
 
 LrsAnswer LrsClient::get(const std::string& id, bool voided) {
-  httplib::Request request;
-  request.method = "GET";
-  request.path = impl_->resource(voided ? "voidedStatementId" : "statementId", id);
-  return impl_->answerTo(std::move(request));
+  return read(std::string("/statements?") + (voided ? "voidedStatementId" : "statementId") + "=" +
+              id);
 }
+
+LrsAnswer LrsClient::read(const std::string& resource) { return answerTo({.path = resource}); }
 
 }  // namespace palpa::link

@@ -1,26 +1,19 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 
-namespace palpa::link {
+#include "apps/link/web_client.h"
 
-/// Where a learning record store listens.
-struct Endpoint {
-  std::string origin;  ///< "https://lrs.centre.example:8443"
-  std::string host;    ///< without brackets and port
-  std::string path;    ///< "/xapi"; empty: at the root. The statements are below it
-  std::string text() const { return origin + path; }
-};
+namespace palpa::link {
 
 /// Throws UsageError: no such address; a password in it (it would end in process lists and shell
 /// histories); http, unless to this computer or `insecure`.
 Endpoint endpointOf(const std::string& url, bool insecure);
 
 struct Login {
-  std::string user, password;  ///< empty user: none is needed
+  std::string user = "", password = "";  ///< empty user: none is needed
+  std::string token = "";  ///< of "Authorization: Basic", as a cmi5 launch gives it; or empty
 };
 
 /// The password of `user` at `host`: $PALPA_XAPI_PASSWORD, else $NETRC, else ~/.netrc ("machine
@@ -40,27 +33,23 @@ struct LrsAnswer {
   std::string trouble;  ///< of status 0, in words
 };
 
-struct LrsTimes {
-  std::int64_t connect_s = 10;
-  std::int64_t answer_s = 30;  ///< without a byte of it
-  std::int64_t whole_s = 60;   ///< the connecting, the request and the whole answer
-};
+using LrsTimes = WebTimes;
 
-/// The statements of a learning record store over HTTP, xAPI 1.0.3. Certificates are checked
-/// against those that the system trusts (or $SSL_CERT_FILE). Redirections are not followed: they
-/// would take the password elsewhere. An answer of more than kLongestAnswer, or that has not ended
-/// in time however it drips, is given up. Throws nothing.
+/// A learning record store over HTTP, xAPI 1.0.3: as WebClient, and throws nothing.
 class LrsClient {
  public:
-  static constexpr std::size_t kLongestAnswer = 1u << 20;
+  static constexpr std::size_t kLongestAnswer = WebClient::kLongestAnswer;
   LrsClient(const Endpoint& endpoint, const Login& login, const LrsTimes& times = {});
-  ~LrsClient();
   LrsAnswer put(const std::string& id, const std::string& statement);
   LrsAnswer get(const std::string& id, bool voided = false);
+  /// What else it keeps, below the endpoint: "/activities/state?...".
+  LrsAnswer read(const std::string& resource);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  LrsAnswer answerTo(WebRequest request);
+  const Endpoint endpoint_;
+  const std::string token_;
+  WebClient client_;
 };
 
 }  // namespace palpa::link
