@@ -59,6 +59,14 @@ ALTER TABLE trials ADD COLUMN metric_set    TEXT NOT NULL DEFAULT '';   -- '' wh
 ALTER TABLE trials ADD COLUMN metric_values TEXT NOT NULL DEFAULT '';   -- "0,1,,20.5": of these names
 )sql";
 
+// Of kSteps: who of a learning platform is which trainee.
+const char* const kLearners = R"sql(
+CREATE TABLE learners(
+  digest  TEXT PRIMARY KEY,            -- slow and salted, of the platform and its user
+  trainee TEXT NOT NULL REFERENCES trainees(id) ON DELETE CASCADE
+);
+)sql";
+
 /// SQL; what the rows that are there need beside it; SQL after that.
 struct Step {
   const char* sql;
@@ -196,7 +204,8 @@ CREATE TABLE answers(
 )sql"},
                        {kRatings},
                        {kDeletions},
-                       {kMetricSets, packMetricRows, "DROP TABLE metrics"}};
+                       {kMetricSets, packMetricRows, "DROP TABLE metrics"},
+                       {kLearners}};
 
 /// Of the newest version.
 const std::vector<std::pair<std::string, std::string>> kTables{
@@ -220,7 +229,8 @@ const std::vector<std::pair<std::string, std::string>> kTables{
     {"study_groups", "study,group_name,given"},
     {"enrolments", "study,trainee,group_name,place,condition,simulated,enrolled_utc"},
     {"answers", "study,trainee,session,item,questionnaire,answer,answered_utc"},
-    {"ratings", "session,number,rater,form,form_sha256,item,value,entered_utc"}};
+    {"ratings", "session,number,rater,form,form_sha256,item,value,entered_utc"},
+    {"learners", "digest,trainee"}};
 
 constexpr int kNewest = static_cast<int>(std::size(kSteps));
 
