@@ -28,6 +28,7 @@ pkg_check_modules(PQXX REQUIRED IMPORTED_TARGET libpqxx)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(MOSQUITTO REQUIRED IMPORTED_TARGET libmosquitto)
 pkg_check_modules(AVAHI REQUIRED avahi-client)
+pkg_check_modules(CJOSE REQUIRED IMPORTED_TARGET cjose)
 # Without its _REENTRANT, which would refuse the headers that are compiled once.
 add_library(Avahi::Client INTERFACE IMPORTED)
 target_link_libraries(Avahi::Client INTERFACE ${AVAHI_LINK_LIBRARIES})

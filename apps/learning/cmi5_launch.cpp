@@ -4,7 +4,7 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/text_forms.h"
 #include "anatomy/base/uuid.h"
-#include "apps/learning/cmi5_names.h"
+#include "apps/learning/cmi5_statements.h"
 #include "apps/link/lrs_client.h"
 
 namespace palpa::learning {

@@ -2,7 +2,6 @@
 
 #include "anatomy/base/utc.h"
 #include "anatomy/base/uuid.h"
-#include "apps/learning/cmi5_names.h"
 #include "apps/link/statement.h"
 
 namespace palpa::learning {

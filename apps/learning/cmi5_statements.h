@@ -10,6 +10,14 @@
 /// statements with the same ids, so that what is sent again is stored once.
 namespace palpa::learning {
 
+/// The names that cmi5 gives to extensions, categories and verbs (sections 9.3 and 9.6).
+inline constexpr char kSessionId[] = "https://w3id.org/xapi/cmi5/context/extensions/sessionid",
+                      kMasteryScore[] =
+                          "https://w3id.org/xapi/cmi5/context/extensions/masteryscore",
+                      kCmi5Category[] = "https://w3id.org/xapi/cmi5/context/categories/cmi5",
+                      kMoveOnCategory[] = "https://w3id.org/xapi/cmi5/context/categories/moveon",
+                      kVerbRoot[] = "http://adlnet.gov/expapi/verbs/";
+
 /// What all statements of one launch have in common.
 struct Cmi5Facts {
   std::string launch;  ///< a UUID of ours: the namespace of the statements' ids

@@ -11,10 +11,6 @@
 #include "apps/os/file_access.h"
 
 namespace palpa::learning {
-namespace {
-
-using nlohmann::json;
-constexpr std::size_t kLongestToken = 32u << 10, kLeastBits = 2048;
 
 struct ReleasesKey {
   void operator()(cjose_jwk_t* key) const { cjose_jwk_release(key); }
@@ -28,6 +24,11 @@ struct ReleasesToken {
 using JoseKey = std::unique_ptr<cjose_jwk_t, ReleasesKey>;
 using JoseHead = std::unique_ptr<cjose_header_t, ReleasesHead>;
 using JoseToken = std::unique_ptr<cjose_jws_t, ReleasesToken>;
+
+namespace {
+
+using nlohmann::json;
+constexpr std::size_t kLongestToken = 32u << 10, kLeastBits = 2048;
 
 [[noreturn]] void refuseToken(const std::string& why) {
   throw UsageError(why, "the platform's token", "Start again from the course");

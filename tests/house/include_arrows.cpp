@@ -128,6 +128,7 @@ std::string libraryOf(const std::string& header) {
       {"AL/", "OpenAL"},
       {"avahi-", "Avahi"},
       {"mosquitto", "Mosquitto"},
+      {"cjose", "cjose"},
       {"mqtt_protocol", "Mosquitto"}};
   for (const auto& [prefix, library] : kPrefixes)
     if (begins(header, prefix)) return library;
