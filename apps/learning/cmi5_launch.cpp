@@ -11,7 +11,6 @@ namespace palpa::learning {
 namespace {
 
 using nlohmann::json;
-constexpr link::WebTimes kTimes{5, 10, 15};
 constexpr char kAgain[] = "Start again from the course";
 
 [[noreturn]] void refuseLaunch(const std::string& why, const std::string& what) {
@@ -29,7 +28,8 @@ json actorIn(const std::string& text) {
   const json given = parsedOrDiscarded(text);
   const json account = given.is_object() ? given.value("account", json()) : json();
   const std::string home = textAt(account, "homePage"), name = textAt(account, "name");
-  if (home.empty() || name.empty() || (given.contains("objectType") && given["objectType"] != "Agent"))
+  if (home.empty() || name.empty() ||
+      (given.contains("objectType") && given["objectType"] != "Agent"))
     refuseLaunch("is no agent with an account", "the actor of the launch");
   return {{"objectType", "Agent"}, {"account", {{"homePage", home}, {"name", name}}}};
 }
@@ -37,7 +37,8 @@ json actorIn(const std::string& text) {
 std::string iriIn(const Fields& fields, const char* name) {
   std::string iri = neededIn(fields, name);
   const std::size_t colon = iri.find(':');
-  if (colon == std::string::npos || colon == 0 || iri.find_first_of(" <>\"\r\n") != std::string::npos)
+  if (colon == std::string::npos || colon == 0 ||
+      iri.find_first_of(" <>\"\r\n") != std::string::npos)
     refuseLaunch("is no IRI in full", std::string("\"") + name + "\" of the launch");
   return iri;
 }
@@ -110,13 +111,14 @@ namespace {
 /// Usable once: an answer that was lost is a launch that is lost.
 std::string fetchedToken(const std::string& fetch) {
   const Target target = targetOf(fetch);
-  link::WebClient client(target.server, kTimes);
+  link::WebClient client(target.server, kPlatformTimes);
   const link::WebAnswer answer = client.answerTo({.method = "POST", .path = target.path});
   if (answer.status == 0) refuseLaunch("gave no key (" + answer.trouble + ")", "the platform");
   const json told = parsedOrDiscarded(answer.body);
   std::string token = textAt(told, "auth-token");
-  const bool fits = token.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-                                            "0123456789-._~+/=") == std::string::npos;
+  const bool fits = token.find_first_not_of(
+                        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                        "0123456789-._~+/=") == std::string::npos;
   if (answer.status != 200 || token.empty() || !fits)
     refuseLaunch("gave no key: \"" + plainText(textAt(told, "error-text"), 80) +
                      "\" (each launch has one, for one use)",
@@ -129,11 +131,11 @@ json documentAt(link::LrsClient& client, const std::string& resource, const char
   const link::LrsAnswer answer = client.read(resource);
   if (answer.status == 404 && may_lack) return json::object();
   if (answer.status != 200)
-    refuseLaunch("cannot be had (" +
-                     (answer.status == 0 ? answer.trouble
-                                         : "it answers " + std::to_string(answer.status)) +
-                     ")",
-                 what);
+    refuseLaunch(
+        "cannot be had (" +
+            (answer.status == 0 ? answer.trouble : "it answers " + std::to_string(answer.status)) +
+            ")",
+        what);
   return parsedOrDiscarded(answer.body);
 }
 
@@ -142,20 +144,20 @@ json documentAt(link::LrsClient& client, const std::string& resource, const char
 Cmi5Session askPlatform(const Cmi5Request& r) {
   Cmi5Session session;
   session.token = fetchedToken(r.fetch);
-  link::LrsClient client(link::endpointOf(r.endpoint, false), {.token = session.token}, kTimes);
+  link::LrsClient client(link::endpointOf(r.endpoint, false), {.token = session.token},
+                         kPlatformTimes);
   const std::string agent = r.actor.dump();
-  session.data = readLaunchData(
-      documentAt(client,
-                 "/activities/state?" + queryOf({{"stateId", "LMS.LaunchData"},
-                                                 {"activityId", r.activity},
-                                                 {"agent", agent},
-                                                 {"registration", r.registration}}),
-                 "the platform's launch data", false),
-      *r.platform);
+  session.data =
+      readLaunchData(documentAt(client,
+                                "/activities/state?" + queryOf({{"stateId", "LMS.LaunchData"},
+                                                                {"activityId", r.activity},
+                                                                {"agent", agent},
+                                                                {"registration", r.registration}}),
+                                "the platform's launch data", false),
+                     *r.platform);
   const json preferences = documentAt(
       client,
-      "/agents/profile?" +
-          queryOf({{"profileId", "cmi5LearnerPreferences"}, {"agent", agent}}),
+      "/agents/profile?" + queryOf({{"profileId", "cmi5LearnerPreferences"}, {"agent", agent}}),
       "the learner's preferences", true);
   session.data.audio = textAt(preferences, "audioPreference") != "off";
   return session;

@@ -34,7 +34,8 @@ std::string worded(const char* element, const std::string& words) {
 
 std::string unitOf(const CourseTask& task, const std::string& root, const std::string& address) {
   return "    <au id=\"" + inXml(root + "/units/" + task.id) +
-         "\" launchMethod=\"OwnWindow\" moveOn=\"CompletedAndPassed\" masteryScore=\"1.0\">\n      " +
+         "\" launchMethod=\"OwnWindow\" moveOn=\"CompletedAndPassed\" masteryScore=\"1.0\">\n     "
+         " " +
          worded("title", task.title) + "\n      " + worded("description", task.about) +
          "\n      <url>" + inXml(address + "learning/cmi5/" + task.id) + "</url>\n    </au>\n";
 }

@@ -38,8 +38,8 @@ json statementFor(const Cmi5Facts& facts, const std::string& verb, std::int64_t 
           {"verb", {{"id", kVerbRoot + verb}, {"display", {{"en", verb}}}}},
           {"object", {{"objectType", "Activity"}, {"id", facts.activity}}},
           {"context", contextOf(facts, judged || verb == "completed", judged)},
-          {"timestamp", isoTimestamp(facts.began_utc.substr(0, 19) + "Z",
-                                     (thousandths + since_ms) * kNsOfMs)}};
+          {"timestamp",
+           isoTimestamp(facts.began_utc.substr(0, 19) + "Z", (thousandths + since_ms) * kNsOfMs)}};
 }
 
 json scoreOf(double scaled) {

@@ -32,10 +32,10 @@ Cmi5Facts cmi5FactsIn(const nlohmann::json& json);  ///< throws nlohmann's excep
 
 /// What came of the session.
 struct LaunchResult {
-  bool completed = false;         ///< all trials that were asked for were held
-  std::optional<double> scaled;   ///< share of trials at the task's standard; none were scored
+  bool completed = false;        ///< all trials that were asked for were held
+  std::optional<double> scaled;  ///< share of trials at the task's standard; none were scored
   bool simulated = false;
-  std::int64_t length_ms = 0;     ///< of the launch
+  std::int64_t length_ms = 0;  ///< of the launch
 };
 
 /// Told earlier of this registration and activity, in other sessions.

@@ -8,6 +8,9 @@
 
 namespace palpa::learning {
 
+/// Of requests to a platform.
+inline constexpr link::WebTimes kPlatformTimes{5, 10, 15};
+
 enum class PlatformKind { cmi5, lti };
 
 /// A learning management system that may launch tasks here.
@@ -23,9 +26,9 @@ struct Platform {
 
 /// What of learning management systems a console knows. Nothing, and there is none.
 struct Settings {
-  std::string address;              ///< of this console for their browsers, ending in "/"
-  std::string performer = "person"; ///< of launched sessions: person, expert, novice
-  int trials = 1;                   ///< of each
+  std::string address;               ///< of this console for their browsers, ending in "/"
+  std::string performer = "person";  ///< of launched sessions: person, expert, novice
+  int trials = 1;                    ///< of each
   std::vector<Platform> platforms = {};
 
   bool isOff() const { return platforms.empty(); }

@@ -163,11 +163,10 @@ std::string SigningKey::signedToken(const json& claims) const {
                       cjose_header_set(head.get(), CJOSE_HDR_ALG, CJOSE_HDR_ALG_RS256, &error) &&
                       cjose_header_set(head.get(), CJOSE_HDR_KID, impl_->kid.c_str(), &error) &&
                       cjose_header_set(head.get(), "typ", "JWT", &error);
-  const JoseToken token(
-      headed ? cjose_jws_sign(impl_->key.get(), head.get(),
-                              reinterpret_cast<const std::uint8_t*>(text.data()), text.size(),
-                              &error)
-             : nullptr);
+  const JoseToken token(headed ? cjose_jws_sign(impl_->key.get(), head.get(),
+                                                reinterpret_cast<const std::uint8_t*>(text.data()),
+                                                text.size(), &error)
+                               : nullptr);
   const char* compact = nullptr;
   if (!token || !cjose_jws_export(token.get(), &compact, &error))
     throw Error("cannot sign", "this console's key", "Restart the console");

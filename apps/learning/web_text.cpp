@@ -26,8 +26,7 @@ std::string escaped(const std::string& text) {
 
 std::string inHtml(const std::string& text) {
   std::string out;
-  for (const char c : text)
-    switch (c) {
+  for (const char c : text) switch (c) {
       case '<':
         out += "&lt;";
         break;

@@ -43,9 +43,9 @@ std::string LearnerStore::traineeFor(const std::string& platform, const std::str
   if (std::string known = traineeOf(digest); !known.empty()) return known;
   SqlTransaction transaction(connection_);
   std::string id = freePseudonym();
-  connection_.query("INSERT INTO trainees(" + columnsOf("trainees") +
-                        ") VALUES($1,$2,$3,$4,$5,$6,$7,$8)",
-                    {id, "learner", "", "right", now_utc, "", "", ""});
+  connection_.query(
+      "INSERT INTO trainees(" + columnsOf("trainees") + ") VALUES($1,$2,$3,$4,$5,$6,$7,$8)",
+      {id, "learner", "", "right", now_utc, "", "", ""});
   const SqlRows mine =
       connection_.query("INSERT INTO learners(" + columnsOf("learners") +
                             ") VALUES($1,$2) ON CONFLICT(digest) DO NOTHING RETURNING trainee",

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/learning/settings.h"
+
+/// What a platform has signed for a launch (LTI Core 1.3, section 5; Security Framework 1.0,
+/// section 5.1.3).
+namespace palpa::learning {
+
+struct LtiLaunch {
+  std::string person;      ///< what the platform calls who launches
+  std::string task;        ///< id: custom parameter "task", else the link's last part
+  std::string return_url;  ///< empty: none, or of another origin than the platform's
+  std::string line_item;   ///< where the score goes (AGS 2.0); empty: it keeps none
+};
+
+/// Throws UsageError for a token that is not of this platform for this console, in one of its
+/// deployments, for this very login and now (a minute of leeway), or launches no task.
+LtiLaunch readLtiLaunch(const nlohmann::json& claims, const Platform& platform,
+                        const std::string& nonce, std::chrono::sys_seconds now,
+                        const Settings& settings);
+
+/// The keys that platforms publish. Asked for when a token names one that is not known, of one
+/// platform at most once a minute. Any thread.
+class PlatformKeys {
+ public:
+  using Time = std::chrono::sys_seconds;
+  /// The set that holds the token's key, or the last that was had; throws UsageError where the
+  /// platform cannot be reached.
+  std::string keysFor(const Platform& platform, const std::string& token, Time now);
+
+ private:
+  struct Known {
+    std::string keys;
+    Time asked;
+  };
+  std::mutex mutex_;
+  std::map<std::string, Known> known_;  ///< by the platform's name
+};
+
+}  // namespace palpa::learning
