@@ -23,6 +23,8 @@
 
 namespace palpa::console {
 
+class LearningDesk;
+
 /// The few threads that wait for pictures of other stations at a time, one a station. One that has
 /// kept a thread waiting is left in peace for a while: it shall not have all places. Any thread.
 class PicturePlaces {
@@ -68,6 +70,8 @@ struct Console {
   PicturePlaces picture_places;
   std::unique_ptr<RoomStation> joined;   ///< to a room, or null
   std::unique_ptr<room::Nearby> nearby;  ///< on the network, or null: nobody there matters
+  /// Launches of learning management systems; there from before the server answers.
+  std::shared_ptr<LearningDesk> learning;
 };
 
 /// One function a part of the house's API; each adds its paths to the server.
@@ -81,7 +85,8 @@ void addReplayRoutes(WebServer& server, Console& console);   ///< a trial on one
 void addFilmRoutes(WebServer& server, Console& console);     ///< the film of the room
 void addRoomRoutes(WebServer& server, Console& console);     ///< the other stations, and this one
 void addOwnRoutes(WebServer& server, Console& console);      ///< a trainee's own results
-void addPages(WebServer& server, Console& console);          ///< what a browser loads, languages
+void addLearningRoutes(WebServer& server, Console& console);  ///< launches of an LMS
+void addPages(WebServer& server, Console& console);           ///< what a browser loads, languages
 
 void checkHealth(Console& console);
 /// Throws UsageError for what cannot be held here, and where a session runs already.

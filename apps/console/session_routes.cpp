@@ -95,6 +95,7 @@ std::vector<std::string> sessionCommand(const Console& c, const TaskChoice& task
     throw UsageError("a film belongs to a trainee's records", "the room cannot be filmed",
                      "Choose the trainee, who has to agree");
   if (wish.film) a.insert(a.end(), {"--film-room", c.place.room_camera, "--film-agreed"});
+  if (wish.silent) a.insert(a.end(), {"--sound", "off"});
   if (!wish.language.empty()) a.insert(a.end(), {"--language", wish.language});
   addStation(c.place, kind, &a);
   return a;

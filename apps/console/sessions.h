@@ -33,6 +33,7 @@ struct SessionWish {
   bool simulated = false;  ///< who performs, or the station
   std::string language;    ///< of its window: a code; empty: English
   bool blind = false;      ///< of a study: an educator must not be told what was drawn
+  bool silent = false;     ///< no sound
 };
 /// Throws UsageError where a field is missing, of the wrong kind or out of range.
 SessionWish readWish(const nlohmann::json& json);

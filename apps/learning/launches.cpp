@@ -36,6 +36,7 @@ constexpr KeptText kKept[] = {
 json toJson(const Launch& launch) {
   json kept{{"kind", launch.kind == PlatformKind::lti ? "lti" : "cmi5"},
             {"trials", launch.trials},
+            {"began_ms", launch.began_ms},
             {"over", launch.over},
             {"due", launch.due},
             {"told_completed", launch.told.completed},
@@ -50,6 +51,7 @@ Launch launchIn(const json& kept) {
   Launch launch;
   launch.kind = kept.at("kind") == "lti" ? PlatformKind::lti : PlatformKind::cmi5;
   launch.trials = kept.at("trials");
+  launch.began_ms = kept.at("began_ms");
   launch.over = kept.at("over");
   launch.due = kept.at("due").get<std::vector<json>>();
   launch.told = {kept.at("told_completed"), kept.at("told_passed")};
@@ -89,21 +91,33 @@ std::optional<Launch> Launches::find(const std::string& id) const {
   return readLaunch(folder_ / (id + ".json"));
 }
 
-std::vector<Launch> Launches::all() const {
-  const std::lock_guard lock(mutex_);
-  std::vector<Launch> found;
+std::vector<std::filesystem::path> Launches::files() const {
+  std::vector<std::filesystem::path> found;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, none))
-    if (entry.path().extension() == ".json")
-      if (auto launch = readLaunch(entry.path())) found.push_back(std::move(*launch));
+    if (entry.path().extension() == ".json") found.push_back(entry.path());
   return found;
 }
 
-std::vector<Launch> Launches::notDone() const {
-  std::vector<Launch> open = all();
-  std::erase_if(open, [](const Launch& launch) {
-    return launch.isDone() || (launch.over && !launch.trouble.empty());
-  });
+std::vector<Launch> Launches::all() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Launch> found;
+  for (const auto& file : files())
+    if (auto launch = readLaunch(file)) found.push_back(std::move(*launch));
+  return found;
+}
+
+std::vector<Launch> Launches::notDone() {
+  const std::lock_guard lock(mutex_);
+  std::vector<Launch> open;
+  for (const auto& file : files()) {
+    if (done_.contains(file.filename())) continue;
+    auto launch = readLaunch(file);
+    if (!launch || launch->isDone() || (launch->over && !launch->trouble.empty()))
+      done_.insert(file.filename());
+    else
+      open.push_back(std::move(*launch));
+  }
   return open;
 }
 
@@ -150,8 +164,7 @@ std::string inWords(const Launch& launch, const LaunchResult& result) {
     return result.completed ? "The session is recorded." : "The session ended before its trials.";
   constexpr double kPercent = 100;
   const int percent = static_cast<int>(kPercent * *result.scaled);
-  const std::string judged =
-      "Trials at the task's standard: " + std::to_string(percent) + " of 100.";
+  const std::string judged = std::to_string(percent) + " % of the trials reached the task's goal.";
   if (launch.kind != PlatformKind::cmi5 || !launch.cmi5.counts) return judged;
   return (*result.scaled >= masteryOf(launch.cmi5) ? "Passed. " : "Not passed yet. ") + judged;
 }

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Launch {
   std::string session, trainee;  ///< of this console
   std::string return_url;        ///< empty: there is no way back
   int trials = 1;                ///< that were asked for
+  std::int64_t began_ms = 0;     ///< since 1970, UTC
   Cmi5Facts cmi5 = {};
   std::string endpoint, token;           ///< cmi5; the token is a secret, kept until all is sent
   std::string line_item, person;         ///< LTI; empty line item: the platform keeps no score
@@ -39,7 +41,7 @@ class Launches {
   /// Throws Error where it cannot be kept. Of one that is done the secrets are left out.
   void keep(const Launch& launch);
   std::optional<Launch> find(const std::string& id) const;
-  std::vector<Launch> notDone() const;
+  std::vector<Launch> notDone();
   /// Whether a cmi5 launch of that registration and session is here already.
   bool has(const Cmi5Facts& facts) const;
   /// What earlier launches have told of the same registration and activity.
@@ -48,9 +50,11 @@ class Launches {
   int forget(const std::string& trainee);
 
  private:
+  std::vector<std::filesystem::path> files() const;
   std::vector<Launch> all() const;
   const std::filesystem::path folder_;
   mutable std::mutex mutex_;
+  std::set<std::filesystem::path> done_;  ///< names of files that need no second look
 };
 
 /// The session of a launch is over: what is to be told. `time_utc` to the millisecond.

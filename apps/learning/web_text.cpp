@@ -76,11 +76,14 @@ std::string neededIn(const Fields& fields, const std::string& name, std::size_t 
   return value;
 }
 
-std::string pageOfWords(const std::string& title, const std::string& words) {
+std::string pageOfWords(const std::string& title, const std::string& words,
+                        const std::string& back) {
+  const std::string link =
+      back.empty() ? "" : "<p><a href=\"" + inHtml(back) + "\">Back to the course</a></p>";
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
          inHtml(title) +
          "</title><link rel=\"stylesheet\" href=\"/static/style.css\"></head><body><main><h1>" +
-         inHtml(title) + "</h1><p>" + inHtml(words) + "</p></main></body></html>\n";
+         inHtml(title) + "</h1><p>" + inHtml(words) + "</p>" + link + "</main></body></html>\n";
 }
 
 }  // namespace palpa::learning

@@ -21,6 +21,8 @@ std::string fieldIn(const Fields& fields, const std::string& name);
 std::string neededIn(const Fields& fields, const std::string& name, std::size_t most = 2'000);
 
 /// A page of a few words that needs nothing else: HTML, with what has a meaning there escaped.
-std::string pageOfWords(const std::string& title, const std::string& words);
+/// `back`: an address of the course; empty: there is no link.
+std::string pageOfWords(const std::string& title, const std::string& words,
+                        const std::string& back = "");
 
 }  // namespace palpa::learning

@@ -99,9 +99,29 @@ bool isOpen(const GuardedRequest& asked) {
          asked.path == "/api/mine/enter" || asked.path == "/api/mine/leave";
 }
 
+/// What a learning platform sends browsers to: from another site, by a form of theirs. What it has
+/// signed, or a key of its for one use, is looked at by whoever answers.
+bool isLaunchPath(const GuardedRequest& asked) {
+  return asked.path.starts_with("/learning/") && asked.path.find("..") == std::string::npos;
+}
+
 }  // namespace
 
+GuardVerdict Guard::judgeLaunch(const GuardedRequest& asked) {
+  if (GuardVerdict verdict = judgeHost(asked); verdict.status != 200) return verdict;
+  if (asked.method != "GET" && asked.method != "POST")
+    return {405, "only GET and POST are understood"};
+  if (asked.method == "POST" &&
+      !asked.content_type.starts_with("application/x-www-form-urlencoded"))
+    return {415, "a launch must be a form"};
+  const std::lock_guard lock(mutex_);
+  if (launches_.tooMany(asked.remote)) return {429, "too many requests: wait a few seconds"};
+  launches_.note(asked.remote);
+  return {};
+}
+
 GuardVerdict Guard::judge(const GuardedRequest& asked) {
+  if (isLaunchPath(asked)) return judgeLaunch(asked);
   if (GuardVerdict verdict = judgeOrigin(asked); verdict.status != 200) return verdict;
   if (asked.method == "POST") {
     if (GuardVerdict verdict = judgePage(asked); verdict.status != 200) return verdict;
@@ -124,10 +144,20 @@ bool Guard::mayStop(const GuardedRequest& asked) const {
          judgePage(asked).status == 200 && entered(asked.cookie);
 }
 
-GuardVerdict Guard::judgeOrigin(const GuardedRequest& asked) const {
+std::string Guard::cookieForLaunch(const std::string& name, const std::string& value) const {
+  return name + "=" + value + "; HttpOnly; Path=/learning/; " +
+         (scheme_ == "https" ? "SameSite=None; Secure" : "SameSite=Lax");
+}
+
+GuardVerdict Guard::judgeHost(const GuardedRequest& asked) const {
   if (std::find(hosts_.begin(), hosts_.end(), asked.host) == hosts_.end())
     return {421, "this console is not called \"" + asked.host.substr(0, 64) +
                      "\": use the address that it prints when it starts"};
+  return {};
+}
+
+GuardVerdict Guard::judgeOrigin(const GuardedRequest& asked) const {
+  if (GuardVerdict verdict = judgeHost(asked); verdict.status != 200) return verdict;
   const bool own = asked.origin.empty() ||
                    std::any_of(hosts_.begin(), hosts_.end(), [&](const std::string& host) {
                      return asked.origin == scheme_ + "://" + host;

@@ -61,11 +61,15 @@ class Guard {
   /// "Set-Cookie" of a cookie that no script sees and no other site sends; `more`: further parts.
   std::string cookieText(const std::string& name, const std::string& value,
                          const std::string& more = "") const;
+  /// The same for a browser that a learning platform sends on to us: it comes from another site.
+  std::string cookieForLaunch(const std::string& name, const std::string& value) const;
   bool asksForToken() const { return !token_.empty(); }
   /// By which trainees come to "/api/mine" and what lies under it, and to nothing else.
   OwnDoor& own() { return own_; }
 
  private:
+  GuardVerdict judgeLaunch(const GuardedRequest& asked);
+  GuardVerdict judgeHost(const GuardedRequest& asked) const;
   GuardVerdict judgeOrigin(const GuardedRequest& asked) const;
   GuardVerdict judgePage(const GuardedRequest& asked) const;
   GuardVerdict judgeNumber(const GuardedRequest& asked);
@@ -76,7 +80,8 @@ class Guard {
   mutable std::mutex mutex_;
   std::unordered_set<std::string> written_;  ///< numbers of writes
   std::deque<std::string> order_;            ///< of those, oldest first
-  Tries writes_{60, std::chrono::seconds(10)}, wrong_{5, std::chrono::seconds(60)};
+  Tries writes_{60, std::chrono::seconds(10)}, wrong_{5, std::chrono::seconds(60)},
+      launches_{60, std::chrono::seconds(10)};
   OwnDoor own_;
 };
 
