@@ -73,6 +73,9 @@ void proposeByLibrary(const std::vector<std::string>& recordings, const std::str
 void addExpertCalibration(CLI::App& calibrate);
 void addExpertRanges(CLI::App& calibrate);
 
+/// `palpa console learning`: cmi5 and LTI 1.3.
+void addLearning(CLI::App& console);
+
 /// `palpa study analyse`: tables, figures and a page of a study from its records.
 void addStudyAnalyse(CLI::App& study);
 

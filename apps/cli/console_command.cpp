@@ -269,6 +269,7 @@ void addConsole(CLI::App& program) {
       "192.168.1.20 --port 8080 --token-file ~/palpa-token\n      for a tablet: its pages are "
       "encrypted");
   addPair(*command);
+  addLearning(*command);
   command->callback([o, command] {
     if (command->get_subcommands().empty()) serve(*o);
   });
