@@ -62,7 +62,7 @@ void tellLti(const Settings& s) {
   std::printf("    login address      %s\n", loginAddress(s).c_str());
   std::printf("    redirection        %s\n", launchAddress(s).c_str());
   std::printf("    keys               %s\n", keysAddress(s).c_str());
-  std::printf("    link of a task     %slearning/lti/subclavian (opened in a new window)\n",
+  std::printf("    link of a task     %slearning/lti/paracentesis (opened in a new window)\n",
               s.address.c_str());
 }
 

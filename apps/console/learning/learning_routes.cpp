@@ -20,14 +20,16 @@ Fields fieldsOf(const httplib::Request& q) { return {q.params.begin(), q.params.
 
 struct Words {
   std::string title, words;
-  int again_s = 0;        ///< the page asks again by itself; 0: never
+  int again_s = 0;        ///< then the page asks again, or follows its link, by itself; 0: never
   std::string link = "";  ///< back to the course
 };
 
 void say(Console& c, const httplib::Request& q, httplib::Response& r, const Words& page,
          int status = 200) {
   r.status = status;
-  if (page.again_s > 0) r.set_header("Refresh", std::to_string(page.again_s));
+  if (page.again_s > 0)
+    r.set_header("Refresh",
+                 std::to_string(page.again_s) + (page.link.empty() ? "" : "; url=" + page.link));
   r.body = learning::pageOfWords(page.title, page.words, page.link);
   const auto language = c.languages.of(languageOfWhoAsks(c, q));
   if (!language->book.isEnglish()) r.body = language::pageIn(r.body, *language);
@@ -90,13 +92,15 @@ void launchLti(Console& c, const httplib::Request& q, httplib::Response& r) {
 }
 
 Words wordsOf(const Launch& launch) {
+  constexpr int kToBeRead_s = 10;
   if (!launch.over)
     return {launch.title,
             "Your session is prepared. Go to the station: it begins there, with the key Enter or "
             "the device's button. This page tells what came of it.",
             3};
   if (launch.isDone())
-    return {launch.title, launch.result + " Your course has it.", 0, launch.return_url};
+    return {launch.title, launch.result + " Your course has it.",
+            launch.return_url.empty() ? 0 : kToBeRead_s, launch.return_url};
   if (launch.trouble.empty())
     return {launch.title, launch.result + " It is being sent to your course.", 3};
   return {launch.title,

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# at_a_console.sh PALPA WORK day|week|room: starts a console of the program PALPA on an empty
-# virtual bench in the folder WORK and lives an educator's day or week at it in Chromium, or watches
-# a room of two stations from it.
+# at_a_console.sh PALPA WORK day|week|room|learning: starts a console of the program PALPA on an
+# empty virtual bench in the folder WORK and lives an educator's day or week at it in Chromium, or
+# watches a room of two stations from it, or is sent there by a learning management system.
 # Exits with 77 (skipped) and says why where Chromium, Node or the two libraries cannot be had.
 set -euo pipefail
 palpa=$(realpath "$1") work=$(realpath -m "$2") part=$3 more=()
@@ -110,6 +110,7 @@ fi
 bash "$work/begin.sh"
 url=$(sed -n 's/^The console: //p' "$work/console.txt")
 cd "$work"
+export PALPA_PROGRAM=$palpa PALPA_CONSOLE_HOME=$work/home
 export PALPA_CONSOLE_BEGIN=$work/begin.sh PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures
 if [ "$part" = room ]; then  # once both have come, the second one leaves
   for _ in $(seq 300); do
