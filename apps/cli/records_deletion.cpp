@@ -119,6 +119,9 @@ void Deletion::removeFromConsole(const std::string& id, bool whole) {
     std::printf("Deleted from the console: %s, %s, %s of its logs\n",
                 counted(traces.sessions, "session").c_str(), counted(traces.jobs, "job").c_str(),
                 counted(traces.lines, "line").c_str());
+  if (traces.launches > 0)
+    std::printf("Deleted: what was kept of %s that a learning management system launched\n",
+                counted(traces.launches, "session").c_str());
 }
 
 /// Beside the sessions' folders, and where reports go unless --out says otherwise.

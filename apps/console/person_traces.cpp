@@ -7,6 +7,7 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/place.h"
+#include "apps/learning/launches.h"
 #include "apps/record/store/record_store.h"
 
 namespace palpa::console {
@@ -93,6 +94,8 @@ void removeHomeTraces(const fs::path& home, const std::string& trainee, PersonTr
   for (const fs::path& log : entriesOf(home))
     if (log.filename().string().find(".log") != std::string::npos)
       removeLines(log, trainee, traces);
+  traces->launches += static_cast<std::size_t>(
+      learning::Launches(learning::Folder(home).launches()).forget(trainee));
 }
 
 }  // namespace palpa::console

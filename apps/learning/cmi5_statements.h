@@ -23,17 +23,17 @@ struct Cmi5Facts {
   std::string launch;  ///< a UUID of ours: the namespace of the statements' ids
   nlohmann::json actor, context;
   std::string activity, registration;
-  bool counts = true;             ///< launch mode Normal; else satisfaction is not told
-  std::optional<double> mastery;  ///< as the platform's launch data have it
-  std::string began_utc;          ///< to the millisecond
+  bool counts = true;                  ///< launch mode Normal; else satisfaction is not told
+  std::optional<double> mastery = {};  ///< as the platform's launch data have it
+  std::string began_utc = "";          ///< to the millisecond
 };
 nlohmann::json toJson(const Cmi5Facts& facts);
 Cmi5Facts cmi5FactsIn(const nlohmann::json& json);  ///< throws nlohmann's exceptions
 
 /// What came of the session.
 struct LaunchResult {
-  bool completed = false;        ///< all trials that were asked for were held
-  std::optional<double> scaled;  ///< share of trials at the task's standard; none were scored
+  bool completed = false;             ///< all trials that were asked for were held
+  std::optional<double> scaled = {};  ///< share of trials at the task's standard; none were scored
   bool simulated = false;
   std::int64_t length_ms = 0;  ///< of the launch
 };

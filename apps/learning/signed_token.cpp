@@ -2,6 +2,8 @@
 
 #include <cjose/cjose.h>
 
+#include <algorithm>
+#include <cctype>
 #include <optional>
 
 #include "anatomy/base/error.h"
@@ -40,9 +42,29 @@ std::string headField(cjose_jws_t* token, const char* field) {
   return value ? value : "";
 }
 
+/// Base64 of RFC 4648, section 5, as it may be: cjose ends the program over what is not.
+bool isBase64Url(std::string_view text) {
+  constexpr std::size_t kGroup = 4;
+  return text.size() % kGroup != 1 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+           return std::isalnum(c) != 0 || c == '-' || c == '_';
+         });
+}
+
+/// Three parts with a full stop between them.
+bool hasForm(std::string_view token) {
+  constexpr int kParts = 3;
+  if (token.empty() || token.size() > kLongestToken) return false;
+  for (int part = 1; part < kParts; ++part) {
+    const std::size_t stop = token.find('.');
+    if (stop == std::string_view::npos || !isBase64Url(token.substr(0, stop))) return false;
+    token.remove_prefix(stop + 1);
+  }
+  return isBase64Url(token);
+}
+
 JoseToken imported(const std::string& token) {
   cjose_err error{};
-  if (token.empty() || token.size() > kLongestToken) return nullptr;
+  if (!hasForm(token)) return nullptr;
   return JoseToken(cjose_jws_import(token.data(), token.size(), &error));
 }
 
@@ -61,7 +83,13 @@ JoseKey verifyingKey(const json& key) {
   if (key.value("kty", json()) != "RSA" || key.value("use", json("sig")) != "sig" ||
       key.value("alg", json("RS256")) != "RS256")
     refuseToken("names a key that is not for RS256");
-  const std::string text = key.dump();
+  for (const char* number : {"n", "e"})
+    if (const json value = key.value(number, json()); !value.is_string() ||
+                                                      value.get<std::string>().empty() ||
+                                                      !isBase64Url(value.get<std::string>()))
+      refuseToken("names a key that is none, or too short");
+  const std::string text =
+      json{{"kty", "RSA"}, {"n", key["n"]}, {"e", key["e"]}}.dump();  // and nothing else
   JoseKey made(cjose_jwk_import(text.data(), text.size(), &error));
   if (!made || cjose_jwk_get_keysize(made.get(), &error) < kLeastBits)
     refuseToken("names a key that is none, or too short");
@@ -132,7 +160,12 @@ JoseKey keptKey(const std::filesystem::path& file) {
     throw Error("may be read by others", file.string(), "chmod 600 " + file.string());
   cjose_err error{};
   const std::string text = readWhole(file).value_or("");
-  JoseKey key(cjose_jwk_import(text.data(), text.size(), &error));
+  const json kept = parsedOrDiscarded(text);
+  const bool is_whole =
+      kept.is_object() && std::all_of(kept.begin(), kept.end(), [](const json& one) {
+        return one.is_string() && isBase64Url(one.get<std::string>());
+      });
+  JoseKey key(is_whole ? cjose_jwk_import(text.data(), text.size(), &error) : nullptr);
   if (!key || !cjose_jwk_get_kid(key.get(), &error))
     throw Error("holds no key", file.string(),
                 "Remove it: a new one is made, which platforms then fetch");

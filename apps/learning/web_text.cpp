@@ -82,7 +82,9 @@ std::string pageOfWords(const std::string& title, const std::string& words,
       back.empty() ? "" : "<p><a href=\"" + inHtml(back) + "\">Back to the course</a></p>";
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
          inHtml(title) +
-         "</title><link rel=\"stylesheet\" href=\"/static/style.css\"></head><body><main><h1>" +
+         "</title><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><link "
+         "rel=\"icon\" href=\"/static/palpa.svg\" type=\"image/svg+xml\"><link rel=\"stylesheet\" "
+         "href=\"/static/style.css\"></head><body><main><h1>" +
          inHtml(title) + "</h1><p>" + inHtml(words) + "</p>" + link + "</main></body></html>\n";
 }
 

@@ -102,7 +102,12 @@ export class Platform {
       [/^\/token$/, () => this.#grant(new URLSearchParams(body))],
       [/^\/keys$/, () => ({ json: { keys: [this.#publicKey()] } })],
       [/^\/items\/7\/scores$/, () => this.#score(q, url, body)],
-      [/^\/course$/, () => ({ html: "<!doctype html><title>Course</title><h1>The course</h1>" })],
+      [
+        /^\/course$/,
+        () => ({
+          html: "<!doctype html><title>Course</title><link rel=icon href=data:><h1>The course</h1>",
+        }),
+      ],
     ];
     let answer = { status: 404 };
     for (const [path, made] of routes) {
