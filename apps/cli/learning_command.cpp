@@ -9,7 +9,7 @@
 #include "apps/cli/values.h"
 #include "apps/console/task_choices.h"
 #include "apps/learning/cmi5_package.h"
-#include "apps/learning/lti_login.h"
+#include "apps/learning/lti_launch.h"
 #include "apps/learning/settings.h"
 
 namespace palpa::cli {

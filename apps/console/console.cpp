@@ -9,7 +9,6 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/utc.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/console/learning/learning_desk.h"
 #include "apps/console/routes.h"
 #include "apps/os/file_access.h"
 #include "apps/os/real_time.h"
@@ -269,7 +268,7 @@ void serveConsole(const ConsoleSettings& s,
   addRoomRoutes(server, console);
   addOwnRoutes(server, console);
   addLearningRoutes(server, console);
-  console.learning = std::make_shared<LearningDesk>(console);
+  console.learning = openLearningDesk(console);
   checkHealth(console);
   const OpenedConsole opened = encryption.opened(port);
   enterRoom(s, opened, &console);

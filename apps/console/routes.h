@@ -85,6 +85,8 @@ void addReplayRoutes(WebServer& server, Console& console);   ///< a trial on one
 void addFilmRoutes(WebServer& server, Console& console);     ///< the film of the room
 void addRoomRoutes(WebServer& server, Console& console);     ///< the other stations, and this one
 void addOwnRoutes(WebServer& server, Console& console);      ///< a trainee's own results
+/// Begins to send what came of launches.
+std::shared_ptr<LearningDesk> openLearningDesk(Console& console);
 void addLearningRoutes(WebServer& server, Console& console);  ///< launches of an LMS
 void addPages(WebServer& server, Console& console);           ///< what a browser loads, languages
 

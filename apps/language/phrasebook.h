@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/language/number_form.h"
 #include "apps/language/po_file.h"
+#include "apps/language/reading.h"
 
 namespace palpa::language {
 

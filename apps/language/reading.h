@@ -6,10 +6,21 @@
 #include <utility>
 #include <vector>
 
-#include "apps/language/number_form.h"
 #include "apps/language/phrase.h"
 
 namespace palpa::language {
+
+/// How a language writes numbers. Files keep their point; this is for what people read.
+struct NumberForm {
+  std::string point = ".";  ///< between units and tenths
+  std::string group = ",";  ///< between thousands
+
+  bool operator==(const NumberForm&) const = default;
+};
+
+/// An English text with its numbers written so: "1,250.5 mm" -> "1.250,5 mm". Only numbers that
+/// stand alone: no versions (1.2.3), no addresses, no names of files.
+std::string numbersIn(std::string_view english, const NumberForm& form);
 
 /// One English text, read as phrases: dynamic programming from its end to its beginning. `whole`
 /// are the phrases that begin with what stands fast, `behind` those that begin with a place. At

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/learning/cmi5_statements.h"
+#include "apps/learning/lti_scores.h"
 #include "apps/learning/settings.h"
 
 /// What is kept of launches until a platform has what came of them.
@@ -60,5 +61,12 @@ class Launches {
 /// The session of a launch is over: what is to be told. `time_utc` to the millisecond.
 void conclude(Launch& launch, const LaunchResult& result, const ToldBefore& before,
               const std::string& time_utc);
+
+/// Sends what is due of a launch, in its order, and keeps after each what is left: statements have
+/// ids that stay, a score is the same however often it comes, so what is sent twice counts once.
+/// Ends at the first that does not arrive. May wait for the platform, 15 s a request. Throws Error
+/// where it cannot be kept.
+Delivered deliver(Launch& launch, Launches& launches, const Settings& settings,
+                  const SigningKey& key, std::chrono::sys_seconds now);
 
 }  // namespace palpa::learning

@@ -88,7 +88,7 @@ command_of() {   # LINE WANTED TEXT
   fi
   printf 'line %s: %s\n' "$line" "$text"
   case $text in
-    'palpa console pair'*) ;;  # ends by itself
+    'palpa console pair'* | 'palpa console learning'*) ;;  # end by themselves
     'palpa console'*)
       open_console "$line" "$text"
       return

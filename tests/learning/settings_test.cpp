@@ -6,7 +6,7 @@
 
 #include "anatomy/base/error.h"
 #include "apps/learning/cmi5_package.h"
-#include "apps/learning/lti_login.h"
+#include "apps/learning/lti_launch.h"
 #include "tests/support/files.h"
 
 namespace palpa::learning {

@@ -9,7 +9,7 @@
 #include "apps/console/session_results.h"
 #include "apps/console/task_choices.h"
 #include "apps/learning/cmi5_launch.h"
-#include "apps/learning/delivery.h"
+#include "apps/learning/launches.h"
 #include "apps/os/real_time.h"
 #include "apps/record/store/learner_store.h"
 
@@ -49,6 +49,10 @@ learning::LaunchResult resultOf(const json& session, const Launch& launch) {
 }
 
 }  // namespace
+
+std::shared_ptr<LearningDesk> openLearningDesk(Console& console) {
+  return std::make_shared<LearningDesk>(console);
+}
 
 LearningDesk::LearningDesk(Console& console)
     : console_(console),

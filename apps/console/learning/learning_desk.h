@@ -10,7 +10,6 @@
 #include "apps/console/routes.h"
 #include "apps/learning/launches.h"
 #include "apps/learning/lti_launch.h"
-#include "apps/learning/lti_login.h"
 #include "apps/learning/signed_token.h"
 
 namespace palpa::console {

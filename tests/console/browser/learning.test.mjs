@@ -60,11 +60,15 @@ test("an educator lets two platforms in, and is told what they must know", { ski
   assert.ok(told.includes(`${base}learning/lti/launch`));
 });
 
+const shot = (name) =>
+  page.screenshot({ path: `${process.env.PALPA_CONSOLE_SHOTS}/${name.replaceAll(" ", "-")}.png` });
+
 /** Until what came of it is told; gives those words. */
 async function watched(name) {
   await page.getByText("Your session is prepared.").waitFor();
-  await e.shot?.(`${name} prepared`);
+  await shot(`${name} prepared`);
   await page.getByText("Your course has it.").waitFor({ timeout: 240_000 });
+  await shot(`${name} told`);
   return page.locator("main p").first().innerText();
 }
 
