@@ -175,6 +175,7 @@ void conclude(Launch& launch, const LaunchResult& result, const ToldBefore& befo
               const std::string& time_utc) {
   launch.over = true;
   launch.result = inWords(launch, result);
+  if (result.simulated) launch.result += " Simulated: this says nothing about a person.";
   if (launch.kind == PlatformKind::cmi5) {
     std::vector<json> statements = statementsAtEnd(launch.cmi5, result, before);
     launch.told = {isTold(statements, "completed"), isTold(statements, "passed")};

@@ -78,14 +78,17 @@ std::string neededIn(const Fields& fields, const std::string& name, std::size_t 
 
 std::string pageOfWords(const std::string& title, const std::string& words,
                         const std::string& back) {
-  const std::string link =
-      back.empty() ? "" : "<p><a href=\"" + inHtml(back) + "\">Back to the course</a></p>";
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
-         inHtml(title) +
-         "</title><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><link "
-         "rel=\"icon\" href=\"/static/palpa.svg\" type=\"image/svg+xml\"><link rel=\"stylesheet\" "
-         "href=\"/static/style.css\"></head><body><main><h1>" +
-         inHtml(title) + "</h1><p>" + inHtml(words) + "</p>" + link + "</main></body></html>\n";
+  constexpr std::string_view kHead =
+      "</title><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+      "<link rel=\"icon\" href=\"/static/palpa.svg\" type=\"image/svg+xml\">"
+      "<link rel=\"stylesheet\" href=\"/static/style.css\"></head>"
+      "<body><main><div class=\"card narrow\"><h1 class=\"page-head\">";
+  const std::string link = back.empty() ? ""
+                                        : "<p><a class=\"button\" href=\"" + inHtml(back) +
+                                              "\">Back to the course</a></p>";
+  std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>";
+  page.append(inHtml(title)).append(kHead).append(inHtml(title)).append("</h1><p class=\"lead\">");
+  return page.append(inHtml(words)).append("</p>").append(link) + "</div></main></body></html>\n";
 }
 
 }  // namespace palpa::learning
