@@ -12,7 +12,7 @@
 namespace palpa::learning {
 
 /// The address of a launch (section 8.1).
-struct Cmi5Request {
+struct Cmi5Request {  // NOLINT(bugprone-exception-escape): JSON, of which it is made, throws none
   const Platform* platform = nullptr;
   std::string endpoint, fetch, activity, registration;
   /// {"objectType", "account"}: what else it may say of a person is left out, and kept nowhere.
@@ -26,7 +26,7 @@ Cmi5Request readCmi5Request(const Fields& fields, const Settings& settings);
 enum class LaunchMode { normal, browse, review };
 
 /// LMS.LaunchData (section 10) and what of the learner's preferences (section 11) counts here.
-struct LaunchData {
+struct LaunchData {        // NOLINT(bugprone-exception-escape): as above
   nlohmann::json context;  ///< the template
   LaunchMode mode = LaunchMode::normal;
   std::optional<double> mastery;
@@ -38,7 +38,7 @@ struct LaunchData {
 LaunchData readLaunchData(const nlohmann::json& document, const Platform& platform);
 
 /// What a platform gave for a launch; the token is a secret.
-struct Cmi5Session {
+struct Cmi5Session {  // NOLINT(bugprone-exception-escape): as above
   std::string token;
   LaunchData data;
 };

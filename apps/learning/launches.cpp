@@ -164,7 +164,7 @@ std::string inWords(const Launch& launch, const LaunchResult& result) {
     return result.completed ? "The session is recorded." : "The session ended before its trials.";
   constexpr double kPercent = 100;
   const int percent = static_cast<int>(kPercent * *result.scaled);
-  const std::string judged = std::to_string(percent) + " % of the trials reached the task's goal.";
+  std::string judged = std::to_string(percent) + " % of the trials reached the task's goal.";
   if (launch.kind != PlatformKind::cmi5 || !launch.cmi5.counts) return judged;
   return (*result.scaled >= masteryOf(launch.cmi5) ? "Passed. " : "Not passed yet. ") + judged;
 }
