@@ -2,6 +2,7 @@
 // is aimed at. They follow the time of the replay.
 import { get, url } from "./api.js";
 import { h, svg } from "./dom.js";
+import { said } from "./language.js";
 import { firstFrom } from "./scale.js";
 
 const kTail_s = 4; // of the tip's way, drawn behind it
@@ -9,15 +10,18 @@ const kTail_s = 4; // of the tip's way, drawn behind it
 const d = (points, closed) =>
   points.length ? `M${points.map(([x, y]) => `${x} ${-y}`).join("L")}${closed ? "Z" : ""}` : "";
 
-/** In letters as large in the wide picture as in the square ones. */
-const namesIn = (view, width) =>
-  view.names.map(({ organ, at: [x, y] }) =>
-    svg(
-      "text",
-      { class: "organ-name", x, y: 1 - y, "font-size": width / (view.kind === "way" ? 25 : 17) },
-      organ,
-    ),
-  );
+/** In letters as large in the wide picture as in the square ones; whole, in any language. */
+function namesIn(view, width) {
+  const font = width / (view.kind === "way" ? 25 : 17);
+  const [left] = view.low,
+    [right] = view.high;
+  return view.names.map(({ organ, at: [x, y] }) => {
+    const name = said(organ);
+    const half = 0.3 * font * name.length;
+    const held = Math.min(Math.max(x, left + half), right - half);
+    return svg("text", { class: "organ-name", x: held, y: 1 - y, "font-size": font }, name);
+  });
+}
 
 const cross = ([x, y]) =>
   svg("path", { class: "taught", d: `M${x - 1.5} ${-y}h3M${x} ${-y - 1.5}v3` });

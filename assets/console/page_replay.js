@@ -1,6 +1,7 @@
 // A trial again: picture, force, depth, phases and events on one time; another trial beside it.
 import { h, mark, put, say, svg } from "./dom.js";
 import { clock, figure, plural } from "./format.js";
+import { said } from "./language.js";
 import { asTable, choice, field, notice, progress, table } from "./parts.js";
 import { needleTrack } from "./needle_track.js";
 import { loadReplay, momentsOf, trialsBeside } from "./replay_data.js";
@@ -78,7 +79,7 @@ function playerBar(life, player, step) {
     [0.25, 0.5, 1, 2, 4].map((x) => [String(x), `${x} ×`]),
     "1",
   );
-  speed.setAttribute("aria-label", "Speed");
+  speed.setAttribute("aria-label", said("Speed"));
   speed.addEventListener("change", () => {
     player.rate = Number(speed.value);
   });
@@ -86,7 +87,7 @@ function playerBar(life, player, step) {
     say(play, playing ? "Pause" : "Play");
     say(time, `${clock(t)} of ${clock(player.length)}`);
     slider.value = String(t);
-    slider.setAttribute("aria-valuetext", `${clock(t)} of ${clock(player.length)}`);
+    slider.setAttribute("aria-valuetext", said(`${clock(t)} of ${clock(player.length)}`));
   });
   life.listen(window, "keydown", (e) => {
     if (!["ArrowLeft", "ArrowRight"].includes(e.key) || e.ctrlKey || e.altKey || e.metaKey) return;

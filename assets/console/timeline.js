@@ -1,6 +1,7 @@
 // Lanes over one time axis: curves, phases and moments of a trial, with a cursor.
 // Used live and in the replay.
 import { h, put, svg } from "./dom.js";
+import { said } from "./language.js";
 import { pathOf, ticks } from "./scale.js";
 
 const kLeft = 64,
@@ -166,8 +167,8 @@ export class Timeline {
         const left = this.x(Math.max(b.from, this.from)),
           width = Math.max(1, this.x(Math.min(b.to, this.to)) - left - 2);
         const room = Math.floor((width - 12) / 7.6);
-        const word =
-          room >= b.name.length ? b.name : room > 3 ? `${b.name.slice(0, room - 1)}…` : "";
+        const name = said(b.name);
+        const word = room >= name.length ? name : room > 3 ? `${name.slice(0, room - 1)}…` : "";
         return svg(
           "g",
           {},

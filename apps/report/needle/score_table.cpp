@@ -34,7 +34,7 @@ std::string valueText(const assess::Penalty& penalty) {
 void writeReason(Html& html, const assess::Penalty& penalty) {
   const auto cell = html.in("td", {{"class", "reason"}});
   html.element("strong", penalty.title);
-  html.element("code", penalty.code);
+  html.element("code", {{"translate", "no"}}, penalty.code);
   html.element("p", penalty.sentence);
   // One moment usually stands in the sentence; several are listed.
   if (penalty.moments_s.size() > 1) {
@@ -140,7 +140,7 @@ void writeGlossary(Html& html) {
   {
     const auto list = html.in("dl", {{"class", "glossary"}});
     for (const Code& entry : kCodes) {
-      html.element("dt", entry.code);
+      html.element("dt", {{"translate", "no"}}, entry.code);
       html.element("dd", entry.meaning);
     }
   }

@@ -32,8 +32,11 @@ PlacedMark unplaced(const assess::Moment& moment, const Axis& x, const ChartFram
   mark.from_px = mark.x - kRadius;
   mark.to_px = mark.x + kRadius;
   if (!words) return mark;
-  const double width = kGap + textWidth(moment.text, frame.font);
-  mark.leftward = mark.to_px + width > frame.width && mark.from_px - width > 0;
+  const double width = kGap + textWidth(moment.text, frame.font),
+               longest = kLongerElsewhere * width;
+  mark.leftward = mark.to_px + longest > frame.width && mark.from_px - longest > 0;
+  mark.words = mark.leftward || mark.to_px + longest <= frame.width;
+  if (!mark.words) return mark;
   (mark.leftward ? mark.from_px : mark.to_px) += mark.leftward ? -width : width;
   return mark;
 }
@@ -103,7 +106,8 @@ void drawLane(Html& svg, const ChartFrame& frame, const Axis& x, double top, con
     const double from = x.at(std::clamp(span.from_s, x.from, x.to));
     const double width = std::max(2.0, x.at(std::clamp(span.to_s, x.from, x.to)) - from);
     svgRect(svg, std::string("span ") + cssClass(toneOfSpan(span.kind)), from, y, width, bar);
-    const bool named = lane.label != span.label && width > textWidth(span.label, frame.font) + 10;
+    const bool named = lane.label != span.label &&
+                       width > kLongerElsewhere * textWidth(span.label, frame.font) + 10;
     if (named) svgText(svg, "inside", from + 6, y + 13.5, span.label);
   }
 }

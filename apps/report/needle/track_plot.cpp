@@ -61,7 +61,7 @@ void drawOrgans(Html& svg, const Placed& at) {
 void nameOrgans(Html& svg, const Placed& at) {
   for (const assess::OrganName& named : at.view.names) {
     const char* name = palpa::name(named.organ);
-    const double half = textWidth(name, 12) / 2 + 2;
+    const double half = kLongerElsewhere * textWidth(name, 12) / 2 + 2;
     svgText(svg, "organ-name mid",
             std::clamp(at.x(named.at), at.left + half, at.left + at.width() - half),
             at.y(named.at) + 4, name);

@@ -39,13 +39,13 @@ void writeHeadElement(Html& html, const std::string& title, const std::string& t
 
 void writeWho(Html& html, const std::string& trainee, const std::string& when, std::size_t trials) {
   const auto who = html.in("p", {{"class", "who"}});
-  const auto item = [&](const char* name, const std::string& value) {
+  const auto item = [&](const char* name, const std::string& value, bool is_name = false) {
     if (value.empty()) return;
     const auto span = html.in("span");
     html.text(std::string(name) + ' ');
-    html.element("strong", value);
+    html.element("strong", {{"translate", is_name ? "no" : ""}}, value);
   };
-  item("Trainee", trainee);
+  item("Trainee", trainee, true);
   item("Date", when);
   item("Trials", std::to_string(trials));
 }

@@ -173,6 +173,7 @@ constexpr const char* kChart = R"css(
 figure{margin:0}
 figcaption{color:var(--muted);font-size:.875rem;margin-top:.4rem}
 .chart{display:block;width:100%;height:auto}
+svg{direction:ltr}
 svg.narrow,.moments.narrow{display:none}
 svg text{fill:var(--ink);font-size:13px}
 svg.narrow text{font-size:12px}

@@ -53,6 +53,9 @@ inline constexpr ChartFrame kNarrow{false, 400, 42, 10, 12};
 /// Estimated width of text in a sans-serif face, px; on the safe side.
 double textWidth(std::string_view text, double font);
 
+/// How much longer a text may be that is said in another language.
+inline constexpr double kLongerElsewhere = 1.4;
+
 /// `text` cut to `room` px, with an ellipsis.
 std::string fitted(std::string_view text, double room, double font);
 

@@ -1,0 +1,141 @@
+// The pages in a language that nobody speaks, a third longer, with a mark on every letter, written
+// from the left and from the right: what bears no mark has no message, what is cut has no room.
+// PALPA_CONSOLE_URL: a console that has just begun, on an empty bench.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { Educator } from "./educator.mjs";
+
+const url = process.env.PALPA_CONSOLE_URL;
+const skip = url ? false : "PALPA_CONSOLE_URL is not set: start a console and give its address";
+const kWidths = [1280, 390];
+const kWho = "learner-7";
+let e, page, session;
+
+const api = async (path) => (await fetch(url + path)).json();
+
+before(async () => {
+  if (skip) return;
+  e = await Educator.come(url, process.env.PALPA_CONSOLE_SHOTS);
+  page = e.page;
+  await e.go("#/trainees");
+  session = await page.evaluate(async (who) => {
+    const { post } = await import("/static/api.js");
+    await post("/api/trainees", { id: who, group: "year-3", hand: "right" });
+    const wish = { task: "paracentesis", operator: "expert", trainee: who };
+    return (await post("/api/sessions", wish)).id;
+  }, kWho);
+});
+after(async () => {
+  await e?.leave();
+});
+
+/** In the page: texts without marks, and texts that are cut or stand beyond the screen. */
+function whatIsWrong() {
+  const shown = (x) => x.checkVisibility({ visibilityProperty: true });
+  // What people, computers and standards are called, and days as the browser writes them.
+  const names = new RegExp(
+    [
+      "learner-7|year-3|virtual-bench|Palpa|palpa|SCHED_FIFO|BMI|UTC|UTF-8",
+      "\\(?LLVM[^)]*\\)|llvmpipe|OpenGL|EGL|SHA-256|xAPI|CSV|PIN|GB|MB",
+      "\\d+ [A-Z][a-z]{2} \\d{4}|\\S*[/._\\\\]\\S*[A-Za-z]\\S*",
+    ].join("|"),
+    "g",
+  );
+  const plain = (text) => /[A-Za-z]{2,}/.test(text.replace(names, ""));
+  const unmarked = new Set(),
+    cut = new Set();
+  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walk.nextNode(); node; node = walk.nextNode()) {
+    const x = node.parentElement;
+    const text = node.textContent.trim();
+    if (!text || !shown(x) || x.closest("script, style, noscript, option")) continue;
+    if (plain(text) && !x.closest("[translate=no]")) unmarked.add(text.slice(0, 160));
+    if (x.closest(".unseen, thead")) continue; // heard, not seen; or not on a narrow screen
+    const range = document.createRange();
+    range.selectNodeContents(node);
+    const box = range.getBoundingClientRect();
+    if (box.width === 0) continue;
+    const svg = x.closest("svg");
+    for (let up = x; up && up !== document.body; up = up.parentElement) {
+      const style = getComputedStyle(up);
+      const frame = up.getBoundingClientRect();
+      if (/auto|scroll/.test(style.overflowX)) break;
+      const clips = style.overflowX !== "visible" || up === svg;
+      if (
+        clips &&
+        frame.width > 1 &&
+        (box.right > frame.right + 1.5 || box.left < frame.left - 1.5)
+      )
+        cut.add(`${text.slice(0, 50)} (${up.tagName.toLowerCase()})`);
+      if (up.parentElement === document.body || up === document.body) break;
+    }
+  }
+  for (const name of ["title", "aria-label", "placeholder", "alt"])
+    for (const x of document.querySelectorAll(`[${name}]`))
+      if (plain(x.getAttribute(name)) && !x.closest("[translate=no]"))
+        unmarked.add(`${name}: ${x.getAttribute(name).slice(0, 70)}`);
+  const wide = document.documentElement.scrollWidth - window.innerWidth;
+  return { unmarked: [...unmarked], cut: [...cut], wide };
+}
+
+/** All that stands on a page, opened. */
+async function lookThrough(where) {
+  await page.waitForTimeout(400);
+  for (const more of await page.locator("summary").all())
+    await more.click({ timeout: 500 }).catch(() => {});
+  const found = await page.evaluate(whatIsWrong);
+  await page.screenshot({
+    path: `${process.env.PALPA_CONSOLE_SHOTS}/${where.replace(/\W+/g, "-")}.png`,
+    fullPage: true,
+  });
+  return [
+    ...found.unmarked.map((text) => `${where}: without a mark: ${text}`),
+    ...found.cut.map((text) => `${where}: cut: ${text}`),
+    ...(found.wide > 0 ? [`${where}: ${found.wide} px wider than the screen`] : []),
+  ];
+}
+
+async function speak(language) {
+  await e.context.addCookies([{ name: "palpa-language", value: language, url }]);
+}
+
+test("while a session runs", { skip }, async () => {
+  await speak("qps");
+  const wrong = [];
+  for (const width of kWidths) {
+    await page.setViewportSize({ width, height: 844 });
+    await page.goto(`${url}#/session/${session}`);
+    await page.reload();
+    await page.locator("main .page h1").waitFor();
+    wrong.push(...(await lookThrough(`live ${width}`)));
+  }
+  assert.deepEqual(wrong, []);
+});
+
+test("every page has room for every word, and each word has a message", { skip }, async () => {
+  for (let i = 0; i < 600; ++i) {
+    if ((await api(`api/sessions/${session}`)).state === "finished") break;
+    await page.waitForTimeout(200);
+  }
+  const pages = [
+    ...["station", "calibrate", "trainees", `trainees/${kWho}`, "session", "results"],
+    ...[`results/${session}`, "cohort", `replay/${session}/1`, "studies", "mine", "room"],
+  ];
+  const wrong = new Set();
+  for (const language of ["qps", "qps-rtl"]) {
+    await speak(language);
+    for (const width of kWidths) {
+      await page.setViewportSize({ width, height: 844 });
+      for (const one of pages) {
+        await page.goto(`${url}#/${one}`);
+        await page.reload();
+        await page.locator("main .page h1").waitFor();
+        for (const text of await lookThrough(`${language} ${width} ${one.replace(session, "ID")}`))
+          wrong.add(text);
+      }
+      await page.goto(`${url}api/sessions/${session}/file/report.html`);
+      for (const text of await lookThrough(`${language} ${width} report`)) wrong.add(text);
+    }
+  }
+  assert.deepEqual([...wrong], []);
+});
