@@ -72,7 +72,7 @@ a{color:var(--blue)}
 .who strong{color:var(--ink);font-weight:600}
 .banner{margin:1.1rem 0 0;padding:.7rem 1rem;border:1.5px solid var(--guide);border-radius:8px;
   background:color-mix(in srgb,var(--guide) 13%,var(--card))}
-.banner strong{letter-spacing:.08em;margin-right:.6rem}
+.banner strong{letter-spacing:.08em;margin-inline-end:.6rem}
 nav{display:flex;flex-wrap:wrap;gap:.5rem;margin-top:1rem}
 nav a{display:inline-block;padding:.3rem .75rem;border:1px solid var(--line);border-radius:999px;
   background:var(--card);color:var(--ink);text-decoration:none;font-size:.9rem}
@@ -84,19 +84,19 @@ nav a:hover{border-color:var(--blue)}
 .dot.guide::before{background:var(--guide)}
 .dot.bad::before{background:var(--bad);transform:rotate(45deg)}
 .card{background:var(--card);border:1px solid var(--line);border-radius:12px;padding:28px;margin:20px 0}
-.role{margin-left:.6rem;color:var(--muted);font-size:.95rem;font-weight:400;letter-spacing:0}
+.role{margin-inline-start:.6rem;color:var(--muted);font-size:.95rem;font-weight:400;letter-spacing:0}
 .badge{display:inline-block;margin:0 .5rem;padding:.05rem .6rem;border:1px solid currentColor;
   border-radius:999px;font-size:.8rem;font-weight:500;color:var(--muted);vertical-align:.1em}
 .badge.bad{color:var(--bad-ink)}
 .next{margin:.9rem 0 0}
 .remarks{padding:18px 28px}
 .remarks h2{font-size:1.05rem;margin-bottom:.5rem}
-.remarks ul{margin:0;padding-left:1.2rem}
+.remarks ul{margin:0;padding-inline-start:1.2rem}
 .appendix>summary{font-size:1.05rem;font-weight:650;cursor:pointer}
 .appendix .card{border:0;padding:0;margin:28px 0 0}
 footer{padding-top:8px;padding-bottom:48px}
 .facts{width:100%;border-collapse:collapse}
-.facts th,.facts td{text-align:left;vertical-align:top;padding:.5rem .9rem .5rem 0;
+.facts th,.facts td{text-align:start;vertical-align:top;padding:.5rem .9rem .5rem 0;
   border-bottom:1px solid var(--line);font-weight:400}
 .facts th{color:var(--muted);width:34%}
 .facts td.value{font-weight:600;width:26%}
@@ -106,7 +106,7 @@ footer{padding-top:8px;padding-bottom:48px}
   color:var(--muted)}
 .glossary dd{margin:0}
 .answers{border-collapse:collapse;width:100%;font-size:.9rem}
-.answers th,.answers td{text-align:left;padding:.4rem .9rem .4rem 0;
+.answers th,.answers td{text-align:start;padding:.4rem .9rem .4rem 0;
   border-bottom:1px solid var(--line)}
 .answers thead th{font-weight:400;color:var(--muted)}
 .wrong-word{color:var(--bad-ink);font-weight:600}
@@ -115,7 +115,7 @@ footer{padding-top:8px;padding-bottom:48px}
 constexpr const char* kTrial = R"css(
 .verdict{display:flex;gap:18px;align-items:flex-start;padding:20px;border-radius:10px;
   --tone:var(--plain);background:color-mix(in srgb,var(--tone) 9%,var(--card));
-  border-left:6px solid var(--tone)}
+  border-inline-start:6px solid var(--tone)}
 .verdict.good{--tone:var(--good)}
 .verdict.bad{--tone:var(--bad)}
 .verdict.guide{--tone:var(--guide)}
@@ -126,23 +126,23 @@ constexpr const char* kTrial = R"css(
 .sign path{fill:none;stroke:var(--on);stroke-width:4;stroke-linecap:round;stroke-linejoin:round}
 .finding{flex:1;min-width:0}
 .outcome{font-size:1.3rem;font-weight:650;line-height:1.25}
-.total{flex:none;text-align:right;display:flex;flex-direction:column;color:var(--muted);
+.total{flex:none;text-align:end;display:flex;flex-direction:column;color:var(--muted);
   font-size:.85rem;line-height:1.35}
 .total strong{font-size:2.3rem;line-height:1.05;font-weight:650;letter-spacing:-.02em;color:var(--ink)}
 .tiles{list-style:none;display:flex;flex-wrap:wrap;gap:.6rem 2.4rem;margin:1.1rem 0 0;padding:0 2px}
 .tiles span{display:block;color:var(--muted);font-size:.85rem}
 .tiles strong{font-weight:600}
 .score{width:100%;border-collapse:collapse}
-.score th{font-size:.85rem;font-weight:400;color:var(--muted);text-align:left;
+.score th{font-size:.85rem;font-weight:400;color:var(--muted);text-align:start;
   padding:0 0 .35rem;border-bottom:1px solid var(--line)}
 .score td{padding:.65rem 0;border-bottom:1px solid var(--line);vertical-align:top}
-.score .sum{text-align:right;white-space:nowrap;padding-left:1.4rem;color:var(--muted)}
-.score .points{text-align:right;width:150px;padding-left:1.4rem}
+.score .sum{text-align:end;white-space:nowrap;padding-inline-start:1.4rem;color:var(--muted)}
+.score .points{text-align:end;width:150px;padding-inline-start:1.4rem}
 .score .reason p{margin:.1rem 0 0}
-.score code{margin-left:.6rem}
+.score code{margin-inline-start:.6rem}
 .score .clear{color:var(--muted)}
 .score .clear td{padding:.35rem 0}
-.score .clear .sum,.score .clear .points{padding-left:1.4rem}
+.score .clear .sum,.score .clear .points{padding-inline-start:1.4rem}
 .score .clear strong{font-weight:500}
 .score tfoot td{border-bottom:0;font-weight:600}
 .score tfoot strong{font-size:1.15rem}
@@ -154,19 +154,19 @@ constexpr const char* kTrial = R"css(
 .picture img{display:block;width:100%;height:auto;border-radius:8px;border:1px solid var(--line)}
 .picture figcaption{margin-top:.4rem}
 .missing{padding:2rem 1rem;border:1px dashed var(--line);border-radius:8px;color:var(--muted);margin:0}
-.time{display:inline-block;margin-right:.6rem;font-weight:600}
+.time{display:inline-block;margin-inline-end:.6rem;font-weight:600}
 .moments{margin:.8rem 0 0;padding:0;columns:2 20rem;column-gap:2rem}
-.moments li{margin-left:1.9rem;break-inside:avoid}
-.moments li{padding-left:.2rem}
+.moments li{margin-inline-start:1.9rem;break-inside:avoid}
+.moments li{padding-inline-start:.2rem}
 .moments .time{min-width:4.2rem}
 .scroll{overflow-x:auto}
 .all{border-collapse:collapse;font-size:.85rem;margin:1rem 0 .6rem;width:100%}
-.all th,.all td{text-align:right;padding:.4rem .35rem;border-bottom:1px solid var(--line);
+.all th,.all td{text-align:end;padding:.4rem .35rem;border-bottom:1px solid var(--line);
   white-space:nowrap}
 .all thead th{font-weight:400;color:var(--muted);vertical-align:bottom;line-height:1.25}
 .all thead th[colspan]{text-align:center;border-bottom:0;padding-bottom:0}
-.all thead th:nth-child(2)[rowspan]{text-align:left}
-.all .words{text-align:left;white-space:normal;min-width:7rem}
+.all thead th:nth-child(2)[rowspan]{text-align:start}
+.all .words{text-align:start;white-space:normal;min-width:7rem}
 )css";
 
 constexpr const char* kChart = R"css(
@@ -218,18 +218,18 @@ svg .wall{stroke:var(--ink);stroke-width:2}
 .standing-row p{margin:.9rem 0 .3rem}
 .standing-row p.muted{margin:.3rem 0 0}
 .standing-key{list-style:none;margin:1.2rem 0 0;padding:0;font-size:.875rem;color:var(--muted)}
-.swatch{display:inline-block;width:1.1rem;height:.7rem;margin-right:.5rem;border-radius:2px;
+.swatch{display:inline-block;width:1.1rem;height:.7rem;margin-inline-end:.5rem;border-radius:2px;
   background:var(--phase)}
 .swatch.first{background:var(--blue);opacity:.45}
 .swatch.here{width:.3rem;height:.9rem;margin:0 .9rem 0 .4rem;background:var(--ink);
   vertical-align:-.1rem}
 @media (max-width:899px){
-  main,header,footer{padding-left:12px;padding-right:12px}
+  main,header,footer{padding-inline-start:12px;padding-inline-end:12px}
   .answers{display:block;overflow-x:auto}
   .card{padding:20px 16px}
 }
 @media (max-width:719px){
-  main,header,footer{padding-left:12px;padding-right:12px}
+  main,header,footer{padding-inline-start:12px;padding-inline-end:12px}
   header{padding-top:24px}
   h1{font-size:1.5rem}
   .card{padding:18px 14px;border-radius:10px}
@@ -239,13 +239,13 @@ svg .wall{stroke:var(--ink);stroke-width:2}
   .verdict{flex-wrap:wrap;padding:16px;gap:12px}
   .sign{width:34px;height:34px}
   .finding{flex-basis:70%}
-  .total{width:100%;text-align:left}
+  .total{width:100%;text-align:start}
   .score thead,.score tfoot .sum{display:none}
   .score tr{display:grid;grid-template-columns:1fr 92px;border-bottom:1px solid var(--line);padding:.5rem 0}
   .score td,.score .clear td{border:0;padding:0}
   .score .reason{grid-row:1;grid-column:1}
-  .score .points,.score .clear .points{grid-row:1;grid-column:2;width:auto;padding-left:.8rem}
-  .score .sum,.score .clear .sum{grid-row:2;grid-column:1/3;text-align:left;padding:.1rem 0 0;font-size:.875rem}
+  .score .points,.score .clear .points{grid-row:1;grid-column:2;width:auto;padding-inline-start:.8rem}
+  .score .sum,.score .clear .sum{grid-row:2;grid-column:1/3;text-align:start;padding:.1rem 0 0;font-size:.875rem}
   .glossary{grid-template-columns:1fr;gap:0}
   .glossary dd{margin-bottom:.6rem}
   .facts tr{display:block;padding:.5rem 0;border-bottom:1px solid var(--line)}
@@ -256,7 +256,7 @@ svg .wall{stroke:var(--ink);stroke-width:2}
   @page{margin:14mm}
   html{font-size:11.5px}
   body{background:#fff;-webkit-print-color-adjust:exact;print-color-adjust:exact}
-  main,header,footer{max-width:none;padding-left:0;padding-right:0}
+  main,header,footer{max-width:none;padding-inline-start:0;padding-inline-end:0}
   header{padding-top:0;margin-bottom:6mm}
   footer{padding-bottom:0}
   h3{margin-top:1.4rem}

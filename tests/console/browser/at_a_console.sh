@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# at_a_console.sh PALPA WORK day|week|room|learning: starts a console of the program PALPA on an
-# empty virtual bench in the folder WORK and lives an educator's day or week at it in Chromium, or
+# at_a_console.sh PALPA WORK day|week|room|learning|words: starts a console of PALPA on an empty
+# virtual bench in the folder WORK and lives an educator's day or week at it in Chromium, or
 # watches a room of two stations from it, or is sent there by a learning management system.
 # Exits with 77 (skipped) and says why where Chromium, Node or the two libraries cannot be had.
 set -euo pipefail
