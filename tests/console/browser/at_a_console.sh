@@ -17,7 +17,7 @@ skip() {
 [ -x "${PALPA_CHROMIUM:-/usr/bin/chromium}" ] || skip "no Chromium (Debian: chromium)"
 command -v node >/dev/null || skip "no Node (Debian: nodejs)"
 rm -rf "$work" && mkdir -p "$work"
-cp "$here"/*.mjs "$here/package.json" "$work"
+cp "$here"/*.mjs "$here/package.json" "$top/assets/console/language.js" "$work"
 if [ "$part" = week ]; then  # with a study that ends within the week
   mkdir -p "$work/assets/protocols"
   ln -s "$top"/assets/* "$work/assets" 2>/dev/null || true  # "protocols" is there

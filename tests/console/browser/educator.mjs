@@ -5,6 +5,7 @@ import fs from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { chromium } from "playwright-core";
+import { Phrasebook } from "./language.js";
 
 const kArguments = [
   "--no-sandbox",
@@ -29,7 +30,44 @@ const kNoWords = [
 export const kDesktop = { width: 1366, height: 900 },
   kTablet = { width: 820, height: 1180 };
 
+/** Letters of a pattern, as the page says them: /^Agrees now.*A-7/ in Greek. */
+function patternIn(said, pattern) {
+  const source = pattern.source.replace(/[A-Za-z][A-Za-z0-9 ']*[A-Za-z0-9]/g, (words) =>
+    said(words).replace(/[.*+?^${}()|[\]\\]/g, "\\$&"),
+  );
+  return new RegExp(source, pattern.flags);
+}
+const kFinders = /^(getBy|locator$|filter$|first$|last$|nth$|or$|frameLocator$)/;
+
+/**
+ * A page, or a part of it, in which one looks for English words: what is found are those that stand
+ * there in the page's language.
+ */
+function inWords(found, said) {
+  const spoken = (word) =>
+    word instanceof RegExp ? patternIn(said, word) : typeof word === "string" ? said(word) : word;
+  return new Proxy(found, {
+    get(target, name) {
+      const method = target[name];
+      if (name === "untold") return target;
+      if (typeof method !== "function" || !kFinders.test(name)) {
+        return typeof method === "function" ? method.bind(target) : method;
+      }
+      return (first, options = {}, ...rest) => {
+        const looks = { ...options };
+        for (const key of ["name", "hasText"]) if (key in looks) looks[key] = spoken(looks[key]);
+        if (looks.has) looks.has = looks.has.untold ?? looks.has;
+        const what = /^getBy(Text|Label|Placeholder|Title)/.test(name) ? spoken(first) : first;
+        const whole = name === "filter" ? { ...what, hasText: spoken(what.hasText) } : what;
+        const part = method.call(target, whole?.untold ?? whole, looks, ...rest);
+        return inWords(part, said);
+      };
+    },
+  });
+}
+
 export class Educator {
+  /** In the language PALPA_WEEK_LANGUAGE; English without. */
   static async come(base, shots, token) {
     const e = new Educator();
     Object.assign(e, {
@@ -56,8 +94,20 @@ export class Educator {
       };
     });
     e.page = await e.newPage();
+    await e.speak(process.env.PALPA_WEEK_LANGUAGE || "en");
     if (token) await e.enter(token);
     return e;
+  }
+
+  /** What is looked for by its English words is found as that language says them. */
+  async speak(code) {
+    this.said = (english) => english;
+    if (code === "en") return;
+    await this.context.addCookies([{ name: "palpa-language", value: code, url: this.base }]);
+    const answer = await this.context.request.get(`${this.base}static/language-${code}.json`);
+    const book = new Phrasebook(await answer.json());
+    this.said = (english) => book.said(english);
+    this.page = inWords(this.page, this.said);
   }
 
   /** The console vouches for itself: a tablet would warn once. */
@@ -69,7 +119,7 @@ export class Educator {
   async enter(token) {
     await this.go("#/enter");
     await this.page.getByLabel("Token").fill(token);
-    await this.page.getByRole("button", { name: "Enter" }).click();
+    await this.page.getByRole("button", { name: "Enter the console" }).click();
     await this.page.waitForURL(/#\/station/);
   }
 
