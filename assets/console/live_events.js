@@ -198,7 +198,7 @@ export class LiveEvents {
       return false;
     }
     const word = kWords[tone] ?? "",
-      text = h("span", {}, moment.text);
+      text = h("span", note ? { translate: "no" } : {}, moment.text);
     if (!note) this.lastText = text;
     this.list.prepend(
       h(

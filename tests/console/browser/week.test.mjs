@@ -310,7 +310,7 @@ test(
     await named("button", new RegExp(`^Agrees now.*${carl}`)).waitFor();
     await e.look("withdrawn");
     await open("Studies");
-    const study = page.locator("section.card", { hasText: "A short study of the week" });
+    const study = page.locator("section.card", { hasText: "WEEK-7" });
     await study.waitFor();
     await e.look("studies");
     assert.equal(await study.locator("option", { hasText: carl }).count(), 0);
