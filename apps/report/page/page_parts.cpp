@@ -39,13 +39,15 @@ void writeHeadElement(Html& html, const std::string& title, const std::string& t
 
 void writeWho(Html& html, const std::string& trainee, const std::string& when, std::size_t trials) {
   const auto who = html.in("p", {{"class", "who"}});
-  const auto item = [&](const char* name, const std::string& value, bool is_name = false) {
+  // A pseudonym has no blanks; words for a simulated operator have.
+  const auto item = [&](const char* name, const std::string& value) {
     if (value.empty()) return;
     const auto span = html.in("span");
     html.text(std::string(name) + ' ');
-    html.element("strong", {{"translate", is_name ? "no" : ""}}, value);
+    html.element("strong", {{"translate", value.find(' ') == std::string::npos ? "no" : ""}},
+                 value);
   };
-  item("Trainee", trainee, true);
+  item("Trainee", trainee);
   item("Date", when);
   item("Trials", std::to_string(trials));
 }
