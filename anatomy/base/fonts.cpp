@@ -16,10 +16,12 @@ constexpr Font kDejaVu{
     .package = "fonts-dejavu-core",
     .letters = "Greek and Cyrillic",
 };
+/// VTK 9.1 tells fonts apart by 16 bits of their files' names: it takes NanumGothic.ttf for
+/// another.
 constexpr Font kNanum{
-    .family = "NanumGothic",
-    .plain = "/usr/share/fonts/truetype/nanum/NanumGothic.ttf",
-    .bold = "/usr/share/fonts/truetype/nanum/NanumGothicBold.ttf",
+    .family = "NanumBarunGothic",
+    .plain = "/usr/share/fonts/truetype/nanum/NanumBarunGothic.ttf",
+    .bold = "/usr/share/fonts/truetype/nanum/NanumBarunGothicBold.ttf",
     .package = "fonts-nanum",
     .letters = "Korean",
 };

@@ -14,11 +14,11 @@ struct Font {
   const char* letters;  ///< what a person calls those that no other has
 };
 
-/// What a whole text is drawn with, in windows, pictures and on paper: Nanum Gothic where it has a
-/// Korean letter (it has Latin, Greek and Cyrillic ones, too), else DejaVu Sans.
+/// What a whole text is drawn with, in windows, pictures and on paper: Nanum Barun Gothic where it
+/// has a Korean letter (it has Latin, Greek and Cyrillic ones, too), else DejaVu Sans.
 const Font& fontOf(std::string_view text);
 
-/// Whether a key's letter is one of those that DejaVu Sans has or Nanum Gothic has.
+/// Whether a key's letter is one of those that DejaVu Sans has or Nanum Barun Gothic has.
 bool hasFont(char32_t letter);
 
 bool isThere(const Font& font, const std::filesystem::path& root = "/");

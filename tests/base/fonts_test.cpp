@@ -12,7 +12,7 @@ namespace {
 TEST(Fonts, AKoreanTextIsDrawnInNanumAndEveryOtherInDejaVu) {
   EXPECT_STREQ(fontOf("Depth 12.3 mm").family, "DejaVu Sans");
   EXPECT_STREQ(fontOf("Βάθος, глубина, profondité").family, "DejaVu Sans");
-  EXPECT_STREQ(fontOf("깊이 12.3 mm").family, "NanumGothic");
+  EXPECT_STREQ(fontOf("깊이 12.3 mm").family, "NanumBarunGothic");
   EXPECT_STREQ(fontOf("").family, "DejaVu Sans");
 }
 

@@ -15,7 +15,7 @@ std::string textOf(const std::filesystem::path& file) { return readWhole(file).v
 
 Outcome sessionIn(const std::string& language, const std::string& out, const Folder& here) {
   return palpa(quickly({"subclavian", "--operator", "novice", "--seed", "3", "--language", language,
-                        "--out", out}),
+                        "--assess", "--out", out}),
                here.path());
 }
 

@@ -227,8 +227,9 @@ TEST(Certification, SaysWhatFewTrialsCannotCertify) {
   for (const Certification& c : certifications()) runs.push_back(c.limits.shortest_clean_run);
   EXPECT_EQ(runs, (std::vector<int>{13, 19, 20, 41}));
   EXPECT_NE(whatCannotBeCertified(1).find(
-                "1 trial cannot certify anybody. The fewest trials in a row without a failure: 13 "
-                "for a rate of failure of 10 % against 25 %, 19 "),
+                "1 trial cannot certify anybody. The fewest trials in a row without a failure "
+                "(sequential test, chances of error 0.1 each): 13 for a rate of failure of 10 % "
+                "against 25 %, 19 "),
             std::string::npos)
       << whatCannotBeCertified(1);
   EXPECT_NE(whatCannotBeCertified(10).find("10 trials cannot certify anybody"), std::string::npos);

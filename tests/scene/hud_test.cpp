@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "anatomy/base/fonts.h"
 #include "tests/scene/offscreen.h"
 
 namespace palpa::scene {
@@ -132,6 +133,30 @@ TEST_P(HudFrame, MarkStandsInTheTopRightCornerOfTheArView) {
 }
 
 // On white the plate must be what separates the words from the picture.
+/// Plain and bold, one after the other: each text is drawn with the font that has its letters.
+TEST_P(HudFrame, KoreanWordsAreDrawnBesideOthers) {
+  if (!isThere(fontOf("가"))) GTEST_SKIP() << "not installed: " << fontOf("가").package;
+  state_.show_tool = false;
+  const auto inkOf = [&](const std::string& notice, bool bold = false) {
+    state_.hud = {};
+    state_.hud.alarm = bold;
+    const Image without = frame();
+    state_.hud.notice = notice;
+    const Image with = frame();
+    return blobOf(with,
+                  [&](int u, int v) {
+                    return difference(at(with, u, v), at(without, u, v)) > 0 &&
+                           at(with, u, v).r > 180;
+                  })
+        .count;
+  };
+  const int latin = inkOf("Vein reached. Trial ended"), korean = inkOf("정맥 도달. 시행 종료"),
+            again = inkOf("Vein reached. Trial ended");
+  EXPECT_GT(korean, latin / 3);
+  EXPECT_EQ(again, latin);
+  EXPECT_GT(inkOf("정맥 도달. 시행 종료", true), inkOf("Vein reached. Trial ended", true) / 3);
+}
+
 TEST_P(HudFrame, WordsStayLegibleOnAWhiteAndOnABlackPicture) {
   for (const std::uint8_t shade : {0, 255}) {
     const Image picture = plain(640, 480, shade);

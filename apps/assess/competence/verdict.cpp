@@ -228,12 +228,15 @@ std::string whatCannotBeCertified(int trials) {
   const std::string count = counted(trials, "trial");
   if (beyond.empty())
     return count + " without a failure are enough for every rate shown (" + within + ").";
-  return count +
-         (within.empty() ? " cannot certify anybody"
-                         : " without a failure are enough for some rates (" + within +
-                               ") and not for others") +
-         ". The fewest trials in a row without a failure: " + beyond +
-         " (sequential test, chances of error 0.1 each).";
+  std::string words = count + " cannot certify anybody.";
+  if (!within.empty())
+    words =
+        count + " without a failure are enough for some rates (" + within + ") and not for others.";
+  words +=
+      " The fewest trials in a row without a failure (sequential test, chances of error 0.1 "
+      "each): " +
+      beyond + ".";
+  return words;
 }
 
 }  // namespace palpa::competence
