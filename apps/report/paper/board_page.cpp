@@ -10,6 +10,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/fonts.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/language/languages.h"
 
 namespace palpa::report {
 namespace {
@@ -63,7 +64,8 @@ class Pen {
   }
   /// All at once: no seams where rectangles touch.
   void fill() const { cairo_fill(cairo_); }
-  void words(double x, double y, double size, const std::string& text) const {
+  void words(double x, double y, double size, const std::string& english) const {
+    const std::string text = language::written().book.said(english);
     cairo_select_font_face(cairo_, fontOf(text).family, CAIRO_FONT_SLANT_NORMAL,
                            CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo_, size);
