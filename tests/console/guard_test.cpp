@@ -168,6 +168,40 @@ TEST(Guard, WhoIsRefusedEarlierUsesNoNumberUp) {
   EXPECT_EQ(door.guard.judge(asked).status, 200);
 }
 
+/// A learning platform sends browsers with a form of its own; what it holds is looked at behind.
+TEST(Guard, AFormOfAnotherSiteOpensLaunchesAndNothingElse) {
+  Door door(kToken);
+  const auto form = [&](const std::string& path) {
+    GuardedRequest asked = door.get(path);
+    asked.method = "POST";
+    asked.origin = "https://lms.example";
+    asked.fetch_site = "cross-site";
+    asked.content_type = "application/x-www-form-urlencoded";
+    return asked;
+  };
+  EXPECT_EQ(door.guard.judge(form("/learning/lti/launch")).status, 200);
+  for (const char* other : {"/api/sessions", "/api/enter", "/learning", "/learning/../api/sessions",
+                            "/api/sessions/20260301-1/stop", "//learning/lti/launch"})
+    EXPECT_NE(door.guard.judge(form(other)).status, 200) << other;
+  GuardedRequest link = door.get("/learning/cmi5/pulse");
+  link.fetch_site = "cross-site";
+  EXPECT_EQ(door.guard.judge(link).status, 200);
+  GuardedRequest script = form("/learning/lti/launch");
+  script.content_type = "application/json";
+  EXPECT_EQ(door.guard.judge(script).status, 415);
+  GuardedRequest foreign = form("/learning/lti/launch");
+  foreign.host = "elsewhere:8123";
+  EXPECT_EQ(door.guard.judge(foreign).status, 421);
+  GuardedRequest put = form("/learning/lti/launch");
+  put.method = "PUT";
+  EXPECT_EQ(door.guard.judge(put).status, 405);
+  for (int i = 0; i < 100; ++i) door.guard.judge(form("/learning/lti/launch"));
+  EXPECT_EQ(door.guard.judge(form("/learning/lti/launch")).status, 429);
+  GuardedRequest stop = door.post("/api/sessions/20260301-1/stop");
+  stop.cookie = "palpa=" + door.guard.enter("127.0.0.1", kToken);
+  EXPECT_EQ(door.guard.judge(stop).status, 200) << "no flood of launches stands before a stop";
+}
+
 TEST(Guard, AFloodOfWritesIsStoppedWhereItComesFrom) {
   Door door;
   int passed = 0, stopped = 0;
