@@ -13,6 +13,7 @@
 #include "anatomy/base/json_fields.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/nearest_word.h"
+#include "anatomy/base/text_forms.h"
 
 namespace palpa {
 namespace {
@@ -95,6 +96,7 @@ class KnownFields {
   bool knows(const std::string& field) const {
     if (std::find(names_.begin(), names_.end(), field) != names_.end()) return true;
     if (field.size() > kLongestName) return false;
+    preparePatterns();
     return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
       const json* const patterns = memberOf(*part.schema, "patternProperties");
       if (!patterns) return false;

@@ -3,6 +3,7 @@
 #include <openssl/evp.h>
 #include <algorithm>
 #include <iterator>
+#include <locale>
 #include <utility>
 
 namespace palpa {
@@ -90,6 +91,16 @@ std::u32string lettersOf(std::string_view text) {
     text.remove_prefix(read.size);
   }
   return letters;
+}
+
+void preparePatterns() {
+  [[maybe_unused]] static const bool done = [] {
+    constexpr int kLetters = 256;
+    char all[kLetters], narrow[kLetters];
+    for (int i = 0; i < kLetters; ++i) all[i] = static_cast<char>(i);
+    std::use_facet<std::ctype<char>>(std::locale()).narrow(all, all + kLetters, '\0', narrow);
+    return true;
+  }();
 }
 
 }  // namespace palpa

@@ -20,4 +20,8 @@ std::string plainText(std::string_view text, std::size_t most);
 /// The characters of UTF-8, as Unicode numbers them; each byte that is none of it becomes U+FFFD.
 std::u32string lettersOf(std::string_view text);
 
+/// Before a std::regex is made where several threads may make one: libstdc++ fills a table of the
+/// locale at each letter's first use, unguarded. Here all of it, once. Any thread.
+void preparePatterns();
+
 }  // namespace palpa

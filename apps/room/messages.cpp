@@ -6,6 +6,7 @@
 #include "anatomy/base/enum_names.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
+#include "anatomy/base/text_forms.h"
 
 namespace palpa::room {
 namespace {
@@ -36,6 +37,7 @@ bool isHex(std::string_view text, std::size_t digits) {
 
 /// "https://HOST[:PORT]/", or http of this computer alone: what a console fetches pictures from.
 bool isStationUrl(const std::string& url) {
+  preparePatterns();
   static const std::regex kUrl(R"(https://([A-Za-z0-9.-]+|\[[0-9A-Fa-f:.]+\])(:[0-9]{1,5})?/)"
                                R"(|http://(127\.0\.0\.1|localhost)(:[0-9]{1,5})?/)");
   return url.empty() || (url.size() <= kLongestUrl && std::regex_match(url, kUrl));
