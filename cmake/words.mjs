@@ -1,15 +1,16 @@
 // What people may read of the program, as a gettext template: `node cmake/words.mjs` writes
-// assets/languages/palpa.pot, with `--check` it says whether that is up to date.
+// assets/languages/palpa.pot, and the guide's first chapter as each catalogue says it; with
+// `--check` it says whether they are up to date.
 //
 // Words stand in the sources as they are: "cannot reach " + name + ": look ...". What is joined by
 // + (or stands within a `template`, or about a % of printf) is one message with {1}, {2} ... for
 // what is put in; so is a key, "[P]" (scene/key_places.h). A single word counts where it begins
 // with a capital, or stands in assets/languages/words.txt: most others are names of fields.
-import { readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { messagesOfData, messagesOfPage } from "./words_data.mjs";
+import { chapters, kChapter, messagesOfChapter } from "./words_guide.mjs";
 
 const top = new URL("..", import.meta.url).pathname;
-const template = `${top}assets/languages/palpa.pot`;
 const kRead = ["anatomy", "apps", "ar", "assets", "calibration", "haptics", "scene"];
 const kNobodyReads = new RegExp(
   [
@@ -273,24 +274,24 @@ function written() {
     'msgid ""\nmsgstr ""\n' +
     '"Content-Type: text/plain; charset=UTF-8\\n"\n"Content-Transfer-Encoding: 8bit\\n"\n';
   const entries = [...where].sort(([a], [b]) => (a < b ? -1 : 1));
-  return (
-    head +
-    entries
-      .map(
-        ([message, files]) =>
-          `\n#: ${[...files].sort().slice(0, 3).join(" ")}\nmsgid ${quoted(message)}\nmsgstr ""\n`,
-      )
-      .join("")
-  );
+  const guide = new Set(messagesOfChapter(readFileSync(top + kChapter, "utf8")));
+  return [
+    head,
+    ...entries.map(([message, files]) => entry([...files].sort().slice(0, 3), "", message)),
+    ...[...guide].map((message) => entry([kChapter], 'msgctxt "guide"\n', message)),
+  ].join("\n");
 }
 
-const now = written();
+const entry = (files, context, message) =>
+  `#: ${files.join(" ")}\n${context}msgid ${quoted(message)}\nmsgstr ""\n`;
+
+const made = [["assets/languages/palpa.pot", written()], ...chapters(top)];
 if (process.argv.includes("--check")) {
-  if (readFileSync(template, "utf8") !== now) {
-    console.error("assets/languages/palpa.pot is not up to date: node cmake/words.mjs");
-    process.exit(1);
-  }
-} else {
-  writeFileSync(template, now);
-  console.log(`${now.split("\nmsgid ").length - 1} messages`);
+  const old = made.filter(
+    ([file, text]) => !existsSync(top + file) || readFileSync(top + file, "utf8") !== text,
+  );
+  for (const [file] of old) console.error(`${file} is not up to date: node cmake/words.mjs`);
+  process.exit(old.length ? 1 : 0);
 }
+for (const [file, text] of made) writeFileSync(top + file, text);
+console.log(`${made[0][1].split("\nmsgid ").length - 1} messages`);

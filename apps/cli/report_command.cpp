@@ -77,7 +77,7 @@ void addPageArguments(CLI::App& command, ReportOptions& o) {
       .add_option("--leave-out-study", o.choice.left_out,
                   "Without the trials of this study: whoever leads it may not know conditions")
       ->type_name("ID")
-      ->expected(1);
+      ->allow_extra_args(false);  // one each time that it is given
   command
       .add_option("--acceptable", o.rates.acceptable,
                   "Failure rate that is acceptable; the educator's choice, none is established "

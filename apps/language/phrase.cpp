@@ -122,6 +122,23 @@ std::string changed(const std::string& text, bool to_large) {
 std::string withCapital(const std::string& text) { return changed(text, true); }
 std::string withoutCapital(const std::string& text) { return changed(text, false); }
 
+int columnsOf(std::string_view text) {
+  int columns = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (byte >> 6 == 2) continue;  // within a letter
+    columns += 1;
+    if (byte >> 4 != 0xe || i + 1 >= text.size()) continue;
+    const int page = (byte & 15) << 6 | (text[i + 1] & 63);  // of 64 letters
+    const bool wide = (page >= 0x1100 >> 6 && page < 0x1160 >> 6) ||
+                      (page >= 0x2e80 >> 6 && page < 0xa4d0 >> 6) ||
+                      (page >= 0xac00 >> 6 && page < 0xd7c0 >> 6) ||
+                      (page >= 0xff00 >> 6 && page < 0xff80 >> 6);
+    columns += wide ? 1 : 0;
+  }
+  return columns;
+}
+
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 bool isLetter(char c) { return lower(c) >= 'a' && lower(c) <= 'z'; }
 bool isLetterOrDigit(char c) { return isLetter(c) || (c >= '0' && c <= '9'); }

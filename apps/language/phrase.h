@@ -55,6 +55,8 @@ class PhraseIndex {
 /// A UTF-8 text with a capital first letter, or without one: Latin and Greek; others have none.
 std::string withCapital(const std::string& text);
 std::string withoutCapital(const std::string& text);
+/// Of a terminal that a UTF-8 text takes: two for a Korean or Chinese letter.
+int columnsOf(std::string_view text);
 bool isLetter(char c);
 bool isLetterOrDigit(char c);
 char lower(char c);

@@ -1,5 +1,6 @@
 #include "apps/language/phrasebook.h"
 
+#include <algorithm>
 #include <deque>
 
 #include "apps/language/phrase.h"
@@ -20,6 +21,11 @@ std::size_t endOfPart(std::string_view text, std::size_t from) {
     if (at - from > kLongest && text[at] == ' ') return at;
   }
   return text.size();
+}
+
+int gapAt(std::string_view text, std::size_t from) {
+  const std::size_t end = std::min(text.find_first_not_of(' ', from), text.size());
+  return static_cast<int>(end - from);
 }
 
 }  // namespace
@@ -54,18 +60,31 @@ Phrasebook::Phrasebook(const std::vector<PoFile::Message>& messages, NumberForm 
 std::string Phrasebook::said(std::string_view english) const {
   if (isEnglish()) return std::string(english);
   std::string out;
+  int ahead = 0;  // columns that what is said takes more than the English, in this line
   for (std::size_t at = 0; at < english.size();) {
-    if (isLineEnd(english[at]) || english[at] == ' ') {
+    if (isLineEnd(english[at])) {
       out += english[at++];
+      ahead = 0;
+      continue;
+    }
+    if (english[at] == ' ') {
+      const int gap = gapAt(english, at);
+      const int kept = gap < 2 ? gap : std::max(2, gap - ahead);
+      out.append(static_cast<std::size_t>(kept), ' ');
+      ahead += kept - gap;
+      at += static_cast<std::size_t>(gap);
       continue;
     }
     const std::size_t end = endOfPart(english, at);
     const std::string_view part = english.substr(at, end - at);
     const std::string_view bare = part.substr(0, part.find_last_not_of(".,;: ") + 1);
-    if (const auto found = pages_->alone.find(bare); found != pages_->alone.end())
-      out += found->second->said.front().text + std::string(part.substr(bare.size()));
-    else
-      out += Reading(part, pages_->whole, pages_->behind).said(pages_->numbers);
+    const auto found = pages_->alone.find(bare);
+    const std::string said =
+        found != pages_->alone.end()
+            ? found->second->said.front().text + std::string(part.substr(bare.size()))
+            : Reading(part, pages_->whole, pages_->behind).said(pages_->numbers);
+    ahead += columnsOf(said) - columnsOf(part);
+    out += said;
     at = end;
   }
   return out;

@@ -15,7 +15,9 @@ namespace palpa::language {
 /// {1}, {2} ... for what was put in: "{1} mm of {2}". A text may be one message, or several put
 /// together ("a: b. c"), or hold names that are none; of all ways to read it the one is taken that
 /// leaves the fewest letters without a message, of these the one with the fewest messages. What is
-/// put in is said by the same rule. What is no message stays as it is, but for its numbers.
+/// put in is said by the same rule. What is no message stays as it is, but for its numbers; so does
+/// what is typed: options, and commands of palpa. Columns of a line, two blanks or more apart,
+/// begin where they did as far as what stands before them leaves room.
 class Phrasebook {
  public:
   /// English: every text stays as it is.

@@ -37,8 +37,11 @@ class Reader {
       fuzzy_ = true;
     } else if (line.starts_with('#')) {
       return;
-    } else if (line.starts_with("msgid \"")) {
+    } else if (line.starts_with("msgctxt ")) {
       keep();
+      of_the_guide_ = true;
+    } else if (line.starts_with("msgid \"")) {
+      if (has_id_) keep();
       into_ = &now_.id;
       has_id_ = true;
       add(line.substr(6));
@@ -84,8 +87,9 @@ class Reader {
     if (has_id_ && now_.id.empty())
       readHeader(now_.translation);
     else if (has_id_)
-      file_.messages.push_back({now_.id, fuzzy_ ? "" : now_.translation});
-    if (has_id_) fuzzy_ = false;
+      (of_the_guide_ ? file_.of_the_guide : file_.messages)
+          .push_back({now_.id, fuzzy_ ? "" : now_.translation});
+    if (has_id_) fuzzy_ = of_the_guide_ = false;
     now_ = {};
     into_ = nullptr;
     has_id_ = false;
@@ -113,7 +117,7 @@ class Reader {
   PoFile file_;
   PoFile::Message now_;
   std::string* into_ = nullptr;
-  bool has_id_ = false, fuzzy_ = false;
+  bool has_id_ = false, fuzzy_ = false, of_the_guide_ = false;
 };
 
 }  // namespace

@@ -8,13 +8,14 @@
 namespace palpa::language {
 
 /// A file of gettext: https://www.gnu.org/software/gettext/manual (PO files). Of what it may hold
-/// we use plain messages and the header; plural forms and contexts are refused.
+/// we use messages and the header; plural forms are refused. What has a context is not said by the
+/// program: the guide's paragraphs.
 struct PoFile {
   struct Message {
     std::string id, translation;  ///< UTF-8; the translation is empty where there is none yet
   };
   std::map<std::string, std::string> header;  ///< "Language", "Content-Type" ...
-  std::vector<Message> messages;
+  std::vector<Message> messages, of_the_guide;
 };
 
 /// `name` is for words about what is wrong. Throws UsageError.

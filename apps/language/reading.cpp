@@ -50,6 +50,22 @@ bool Reading::isWithinAName(std::size_t at, Range range) const {
          std::string_view("/\\_=.@").find(before) != std::string_view::npos;
 }
 
+/// Within an option, or one of a command's first two words: "palpa report trainee".
+bool Reading::isTyped(std::size_t at) const {
+  std::size_t from = at;
+  while (from > 0 && (isLetterOrDigit(text_[from - 1]) || text_[from - 1] == '-')) --from;
+  if (text_.substr(from, at - from).starts_with("--")) return true;
+  for (int words = 0; words < 2 && from > 1 && text_[from - 1] == ' '; ++words) {
+    const std::size_t end = --from;
+    while (from > 0 && text_[from - 1] >= 'a' && text_[from - 1] <= 'z') --from;
+    const bool begins =
+        from == 0 || std::string_view(" (:\"").find(text_[from - 1]) != std::string_view::npos;
+    if (begins && text_.substr(from, end - from) == "palpa") return true;
+    if (from == end) return false;
+  }
+  return false;
+}
+
 /// A name that ends before `at` does not end there.
 bool Reading::goesOn(std::size_t at, Range range) const {
   if (at == range.end) return false;
@@ -143,7 +159,7 @@ Reading::Choice Reading::choiceAt(std::size_t at, Range range, const Choices& la
   trial.most =
       kALetter * static_cast<int>(std::count_if(rest.begin(), rest.end(), isLetter)) - kAPhrase;
   trial.best = {later[end - range.begin].worth, nullptr, end, {}, false};
-  if (isWithinAName(at, range)) return trial.best;
+  if (isWithinAName(at, range) || isTyped(at)) return trial.best;
   if (range.begin == 0 && range.end == text_.size()) effort_ = 0;
   tryAt(at, at, &trial);
   if (!isBreak(at, range)) return trial.best;

@@ -59,6 +59,7 @@ class Reading {
   bool standsAt(std::string_view fixed, std::size_t at, Range range) const;
   bool isBreak(std::size_t at, Range range) const;
   bool isWithinAName(std::size_t at, Range range) const;
+  bool isTyped(std::size_t at) const;
   bool goesOn(std::size_t at, Range range) const;
   std::size_t tokenEnd(std::size_t at, Range range) const;
   std::string said(Range range, const NumberForm& numbers);

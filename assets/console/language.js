@@ -96,7 +96,7 @@ class Reading {
     const trial = { begin, end, later, putIn: [], worth: 0 };
     trial.best = { worth: later[next - begin].worth, next };
     trial.most = kALetter * this.text.slice(at, end).replace(/[^A-Za-z]/g, "").length - kAPhrase;
-    if (this.#isWithinAName(at, begin)) return trial.best;
+    if (this.#isWithinAName(at, begin) || this.#isTyped(at)) return trial.best;
     if (begin === 0 && end === this.text.length) this.#effort = 0;
     this.book.whole.at(this.text, at, end, (phrase) => this.#try(phrase, at, at, trial));
     if (!this.#isBreak(at, begin, end)) return trial.best;
@@ -203,6 +203,12 @@ class Reading {
     return isLetterOrDigit(before) || "/\\_=.@".includes(before);
   }
 
+  /** Within an option, or one of a command's first two words: "palpa report trainee". */
+  #isTyped(at) {
+    const before = this.text.slice(0, at);
+    return /--[A-Za-z0-9-]*$|(?:^|[ (:"])palpa (?:[a-z]+ )?$/.test(before.slice(-80));
+  }
+
   #goesOn(at, end) {
     if (at === end) return false;
     const c = this.text[at];
@@ -297,23 +303,40 @@ export class Phrasebook {
     if (known !== undefined) return known;
     if (this.#said.size > 5000) this.#said.clear();
     let out = "";
+    let ahead = 0; // columns that what is said takes more than the English, in this line
     for (let at = 0; at < english.length;) {
-      if (/[\n\r\t ]/.test(english[at])) {
+      if (/[\n\r\t]/.test(english[at])) {
         out += english[at];
         at += 1;
+        ahead = 0;
+        continue;
+      }
+      if (english[at] === " ") {
+        const gap = /^ +/.exec(english.slice(at))[0].length;
+        const kept = gap < 2 ? gap : Math.max(2, gap - ahead);
+        out += " ".repeat(kept);
+        ahead += kept - gap;
+        at += gap;
         continue;
       }
       const end = endOfPart(english, at);
       const part = english.slice(at, end);
       const bare = part.replace(/[.,;: ]+$/, "");
       const whole = this.#alone.get(bare);
-      out += whole === undefined ? new Reading(part, this).said() : whole + part.slice(bare.length);
+      const now =
+        whole === undefined ? new Reading(part, this).said() : whole + part.slice(bare.length);
+      ahead += columnsOf(now) - columnsOf(part);
+      out += now;
       at = end;
     }
     this.#said.set(english, out);
     return out;
   }
 }
+
+const kWide = /[\u1100-\u117f\u2e80-\ua4ff\uac00-\ud7bf\uff00-\uff7f]/g;
+/** Of a terminal: two for a Korean or Chinese letter. */
+const columnsOf = (text) => [...text].length + (text.match(kWide)?.length ?? 0);
 
 function endOfPart(text, from) {
   for (let at = from; at < text.length; at += 1) {

@@ -62,6 +62,8 @@ TEST_F(Study, LeadsThroughASessionAndItsQuestions) {
   const Outcome blind = palpa(report, here.path());
   EXPECT_EQ(blind.exit_code, 2);
   EXPECT_TRUE(says(blind.err, "has no trials")) << blind.err;
+  report.insert(report.end(), {"--leave-out-study", "another"});
+  EXPECT_TRUE(says(palpa(report, here.path()).err, "has no trials"));
 }
 
 /// Whatever the moment: nothing that ended is lost, nothing is done twice.

@@ -56,6 +56,22 @@ TEST(Phrasebook, KeepsTheCaseOfAFirstLetter) {
   EXPECT_EQ(book.said("The left lung"), "Ο αριστερός πνεύμονας");
 }
 
+TEST(Phrasebook, LeavesWhatIsTypedAlone) {
+  const Phrasebook book = bookOf({"{1} is given more than once", "See: {1} --help", "study",
+                                  "trainee", "report", "the trainee"});
+  EXPECT_EQ(
+      book.said("--leave-out-study ID is given more than once. See: palpa report trainee --help"),
+      "--leave-out-study ID IS GIVEN MORE THAN ONCE. SEE: palpa report trainee --HELP");
+  EXPECT_EQ(book.said("palpa: the trainee"), "palpa: THE TRAINEE");
+}
+
+TEST(Phrasebook, KeepsColumnsWhereTheyBegin) {
+  const Phrasebook book({{"well", "in Ordnung"}, {"ill", "불량"}, {"camera", "cam"}}, {",", "."});
+  EXPECT_EQ(book.said("well   camera     /dev/video0\nill    camera     none"),
+            "in Ordnung  cam   /dev/video0\n불량   cam        none");
+  EXPECT_EQ(book.said("  well"), "  in Ordnung");
+}
+
 TEST(Phrasebook, LeavesNamesPathsAndOptionsAlone) {
   const Phrasebook book = bookOf({"passes", "replay", "main", "fast"});
   for (const char* text :
