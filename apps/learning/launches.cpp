@@ -193,9 +193,8 @@ namespace {
 
 using nlohmann::json;
 
-Delivered sendStatement(const json& statement, const Launch& launch) {
-  link::LrsClient client(link::endpointOf(launch.endpoint, false), {.token = launch.token},
-                         kPlatformTimes);
+Delivered sendStatement(const json& statement, const Launch& launch, const link::WebTimes& times) {
+  link::LrsClient client(link::endpointOf(launch.endpoint, false), {.token = launch.token}, times);
   const link::LrsAnswer answer = client.put(statement.at("id"), statement.dump());
   return deliveredBy(answer.status, answer.trouble);
 }
@@ -203,15 +202,16 @@ Delivered sendStatement(const json& statement, const Launch& launch) {
 }  // namespace
 
 Delivered deliver(Launch& launch, Launches& launches, const Settings& settings,
-                  const SigningKey& key, std::chrono::sys_seconds now) {
+                  const SigningKey& key, std::chrono::sys_seconds now,
+                  const link::WebTimes& times) {
   const Platform* const platform = settings.named(launch.platform);
   Delivered last;
   if (!platform) last = {Delivery::refused, "the platform was removed from this console"};
   while (platform && !launch.due.empty() && last.how == Delivery::done) {
     const json& next = launch.due.front();
     last = launch.kind == PlatformKind::cmi5
-               ? sendStatement(next, launch)
-               : sendScore(next, launch.line_item, *platform, key, now);
+               ? sendStatement(next, launch, times)
+               : sendScore(next, launch.line_item, *platform, key, now, times);
     if (last.how != Delivery::done) break;
     launch.due.erase(launch.due.begin());
     launches.keep(launch);

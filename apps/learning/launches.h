@@ -64,9 +64,10 @@ void conclude(Launch& launch, const LaunchResult& result, const ToldBefore& befo
 
 /// Sends what is due of a launch, in its order, and keeps after each what is left: statements have
 /// ids that stay, a score is the same however often it comes, so what is sent twice counts once.
-/// Ends at the first that does not arrive. May wait for the platform, 15 s a request. Throws Error
+/// Ends at the first that does not arrive, or where the times say that it is given up. Throws Error
 /// where it cannot be kept.
 Delivered deliver(Launch& launch, Launches& launches, const Settings& settings,
-                  const SigningKey& key, std::chrono::sys_seconds now);
+                  const SigningKey& key, std::chrono::sys_seconds now,
+                  const link::WebTimes& times = kPlatformTimes);
 
 }  // namespace palpa::learning

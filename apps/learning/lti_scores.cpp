@@ -35,9 +35,10 @@ struct Access {
   Delivered trouble;  ///< of none
 };
 
-Access accessFrom(const Platform& platform, const SigningKey& key, std::chrono::sys_seconds now) {
+Access accessFrom(const Platform& platform, const SigningKey& key, std::chrono::sys_seconds now,
+                  const link::WebTimes& times) {
   const Target target = targetOf(platform.token);
-  link::WebClient client(target.server, kPlatformTimes);
+  link::WebClient client(target.server, times);
   const link::WebAnswer answer =
       client.answerTo({.method = "POST",
                        .path = target.path,
@@ -83,11 +84,12 @@ Delivered deliveredBy(int status, const std::string& trouble) {
 }
 
 Delivered sendScore(const json& score, const std::string& line_item, const Platform& platform,
-                    const SigningKey& key, std::chrono::sys_seconds now) {
-  const Access access = accessFrom(platform, key, now);
+                    const SigningKey& key, std::chrono::sys_seconds now,
+                    const link::WebTimes& times) {
+  const Access access = accessFrom(platform, key, now, times);
   if (access.token.empty()) return access.trouble;
   const Target target = targetOf(scoresOf(line_item));
-  link::WebClient client(target.server, kPlatformTimes);
+  link::WebClient client(target.server, times);
   const link::WebAnswer answer =
       client.answerTo({.method = "POST",
                        .path = target.path,

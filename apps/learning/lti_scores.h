@@ -29,8 +29,9 @@ struct Delivered {
 /// What an HTTP status means for what was sent: whether to try again.
 Delivered deliveredBy(int status, const std::string& trouble);
 
-/// One score to `line_item`; at most two requests, 15 s each.
+/// One score to `line_item`; at most two requests.
 Delivered sendScore(const nlohmann::json& score, const std::string& line_item,
-                    const Platform& platform, const SigningKey& key, std::chrono::sys_seconds now);
+                    const Platform& platform, const SigningKey& key, std::chrono::sys_seconds now,
+                    const link::WebTimes& times = kPlatformTimes);
 
 }  // namespace palpa::learning

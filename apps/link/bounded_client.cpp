@@ -141,8 +141,9 @@ void WatchedConnection::drop() {
   shared_ = -1;
 }
 
-ExchangeWatch::ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole)
-    : connection_(connection), until_(runtime::ServingClock::now() + whole) {
+ExchangeWatch::ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole,
+                             const std::atomic<bool>* given_up)
+    : connection_(connection), until_(runtime::ServingClock::now() + whole), given_up_(given_up) {
   thread_ = os::startThread([this] { watch(); });
 }
 
@@ -160,7 +161,7 @@ bool ExchangeWatch::end() {
 void ExchangeWatch::watch() {
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, kWatchEvery, [this] { return over_; })) {
-    cut_ = runtime::ServingClock::now() > until_;
+    cut_ = runtime::ServingClock::now() > until_ || (given_up_ && *given_up_);
     if (cut_) connection_.cut();
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -55,10 +56,12 @@ class WatchedConnection {
 };
 
 /// One request and its answer, from connecting on, watched from a thread beside it and cut where it
-/// lasts too long, whatever it is at: the library bounds a pause between two bytes, not the whole.
+/// lasts too long or is given up, whatever it is at: the library bounds a pause between two bytes,
+/// not the whole.
 class ExchangeWatch {
  public:
-  ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole);
+  ExchangeWatch(WatchedConnection& connection, std::chrono::seconds whole,
+                const std::atomic<bool>* given_up = nullptr);
   ~ExchangeWatch() { end(); }
   ExchangeWatch(const ExchangeWatch&) = delete;
   ExchangeWatch& operator=(const ExchangeWatch&) = delete;
@@ -69,6 +72,7 @@ class ExchangeWatch {
 
   WatchedConnection& connection_;
   const runtime::ServingClock::time_point until_;
+  const std::atomic<bool>* const given_up_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool over_ = false, cut_ = false;

@@ -40,6 +40,7 @@ std::string inWords(httplib::Error error) {
 struct WebClient::Impl {
   Impl(const Endpoint& e, const WebTimes& times)
       : whole(times.whole_s),
+        given_up(times.given_up),
         client(boundedClient(e.host, portOf(e), e.origin.starts_with("https"),
                              {.body = kLongestBytes}, count)) {
     os::surviveBrokenConnections();  // a protection that is being agreed on may break
@@ -75,7 +76,7 @@ struct WebClient::Impl {
       return !count.too_long;
     };
     count = {};
-    ExchangeWatch watch(connection, whole);
+    ExchangeWatch watch(connection, whole, given_up);
     const httplib::Result result = client->send(request);
     const bool too_slow = watch.end();
     WebAnswer answer;
@@ -105,6 +106,7 @@ struct WebClient::Impl {
   }
 
   const std::chrono::seconds whole;
+  const std::atomic<bool>* const given_up;
   AnswerCount count;
   WatchedConnection connection;
   const std::unique_ptr<httplib::ClientImpl> client;

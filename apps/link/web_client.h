@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -20,6 +21,7 @@ struct WebTimes {
   std::int64_t connect_s = 10;
   std::int64_t answer_s = 30;  ///< without a byte of it
   std::int64_t whole_s = 60;   ///< the connecting, the request and the whole answer
+  const std::atomic<bool>* given_up = nullptr;  ///< once true, what is asked ends; outlives it
 };
 
 struct WebRequest {

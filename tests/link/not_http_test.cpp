@@ -145,6 +145,14 @@ TEST(NoHttp, AnAnswerThatDripsIsGivenUp) {
   EXPECT_EQ(client.put("0a1b2c3d-4e5f-4a6b-8c7d-000000000001", "{}").status, 0);
 }
 
+/// Whoever ends the program does not wait for a server that hangs.
+TEST(NoHttp, AnAnswerThatIsNotWaitedForAnyMoreIsGivenUp) {
+  const Babbler babbler("", {"x", 20ms});
+  const std::atomic<bool> given_up{true};
+  LrsClient client(endpointOf(babbler.url("http"), false), {}, {3600, 3600, 3600, &given_up});
+  EXPECT_EQ(client.put("0a1b2c3d-4e5f-4a6b-8c7d-000000000001", "{}").status, 0);
+}
+
 /// A megabyte is enough for a statement, and may come.
 TEST(NoHttp, ALongAnswerIsTakenUpToItsBound) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{1000}, LrsClient::kLongestAnswer,

@@ -174,8 +174,11 @@ void LearningDesk::send(Launch& launch) {
   constexpr std::chrono::seconds kLongest{300};
   Wait& wait = waits_[launch.id];
   if (runtime::ServingClock::now() < wait.until) return;
+  link::WebTimes times = learning::kPlatformTimes;
+  times.given_up = &ending_;
   const learning::Delivered delivered =
-      learning::deliver(launch, launches_, settings(), key(), nowInSeconds());
+      learning::deliver(launch, launches_, settings(), key(), nowInSeconds(), times);
+  if (ending_ && delivered.how == learning::Delivery::later) return;
   if (delivered.how == learning::Delivery::done) {
     waits_.erase(launch.id);
     return;

@@ -161,11 +161,13 @@ export class Educator {
 
   /** The page asked for stands, not the one before it, whose heading would do as well. */
   async go(hash, page = this.page) {
-    if (page.url() !== this.base + hash)
-      await page.evaluate(() => {
-        for (const old of document.querySelectorAll("main .page")) old.dataset.left = "yes";
-      });
-    await page.goto(this.base + hash);
+    if (!page.url().startsWith(this.base)) await page.goto(this.base + hash);
+    // In one step: the page may be on its way there by itself.
+    await page.evaluate((wanted) => {
+      if (location.hash === wanted) return;
+      for (const old of document.querySelectorAll("main .page")) old.dataset.left = "yes";
+      location.hash = wanted;
+    }, hash);
     await page.locator("main .page:not([data-left]) h1").waitFor();
   }
 

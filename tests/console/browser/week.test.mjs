@@ -225,6 +225,8 @@ test(
   async () => {
     await open("Trainees");
     await hand.press(page.getByRole("link", { name: anna, exact: true }));
+    // Without what two blind studies hide.
+    await page.frameLocator("iframe.report").locator("h1").waitFor();
     await hand.press(named("button", "Show a PIN for the trainee's own device"));
     const pin = await page.locator(".pin").textContent();
     await e.look("pin");
