@@ -26,7 +26,7 @@ install(TARGETS palpa_opencv_codecs LIBRARY DESTINATION ${PALPA_LOADED_INSTALLED
 install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/palpa/assets
   PATTERN pictures EXCLUDE
   PATTERN "*.sh" EXCLUDE)
-install(FILES assets/udev/60-palpa-falcon.rules DESTINATION lib/udev/rules.d)
+install(DIRECTORY assets/udev/ DESTINATION lib/udev/rules.d FILES_MATCHING PATTERN "*.rules")
 install(FILES cmake/package/palpa.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES cmake/package/palpa.svg
   DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)

@@ -14,7 +14,7 @@ const top = new URL("..", import.meta.url).pathname;
 const kRead = ["anatomy", "apps", "ar", "assets", "calibration", "haptics", "scene"];
 const kNobodyReads = new RegExp(
   [
-    /^(tests|docs|cmake)\/|^apps\/bench\/|pinned_/,
+    /^(tests|docs|cmake)\/|^apps\/bench\/|^haptics\/devices\/template\/|pinned_/,
     /_glsl\.h$|page\/style\.cpp$|^apps\/report\/page\/html\.|\.in$/,
   ]
     .map((part) => part.source)

@@ -29,7 +29,7 @@ class EnumNames {
   }
 
   /// Of a file's field; `known` ends the sentence that refuses any other (UsageError): "known:
-  /// virtual, falcon".
+  /// virtual, net_ft".
   Enum in(const JsonFile& file, const std::string& at, const std::string& known) const {
     const std::string name = file.text(at);
     const std::optional<Enum> e = named(name);
@@ -42,7 +42,7 @@ class EnumNames {
 
   std::size_t size() const { return names_.size(); }
 
-  /// "virtual, falcon, mouse".
+  /// "virtual, mouse, replay".
   std::string list() const {
     std::string all;
     for (const std::string& name : names_) all.append(all.empty() ? "" : ", ").append(name);

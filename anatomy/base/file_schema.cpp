@@ -197,6 +197,19 @@ void refuseUnknownFields(const JsonFile& file, std::string_view kind) {
   walk(file, file.json(), parts, {file.name(), ""});
 }
 
+std::vector<std::string> fieldsOf(std::string_view kind, const std::string& place) {
+  const json& schema = parsedSchema(kind);
+  Parts parts;
+  gather({&schema, &schema}, &parts);
+  for (std::size_t at = 0; at < place.size();) {
+    const std::size_t end = std::min(place.find('/', at), place.size());
+    const Parts inner = KnownFields(parts).of(place.substr(at, end - at));
+    parts = inner;
+    at = end + 1;
+  }
+  return KnownFields(parts).names();
+}
+
 int needKind(const JsonFile& file, std::string_view kind, int newest) {
   if (file.has("version")) file.needVersion(newest);
   refuseUnknownFields(file, kind);

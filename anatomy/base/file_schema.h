@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "anatomy/base/json_file.h"
 
@@ -21,6 +22,9 @@ std::span<const SchemaText> schemaTexts();
 /// schema (if, anyOf, ...) count together: whether a field fits the others is the reader's
 /// question. `kind` must be one of schemaTexts().
 void refuseUnknownFields(const JsonFile& file, std::string_view kind);
+
+/// The names of fields that a schema knows at a place of a file, "device" or "device/other".
+std::vector<std::string> fieldsOf(std::string_view kind, const std::string& place);
 
 /// What every reader asks first: the file's version is 1 to `newest`, and it has no unknown field.
 /// Returns the version. Fields of a later version are not called mistakes: the version is.

@@ -81,10 +81,10 @@ HandFigures handFigures(const twin::PhantomTwin& start, const HandCase& one) {
 }
 
 std::vector<JudgedDevice> judgedDevices() {
-  // Phantom Premium 1.5: 8.5 N, 0.03 mm, 75 g, 0.04 N of friction (its maker's sheet). Falcon: 8 N,
-  // 0.06 mm; inertia and friction [chosen] as larger.
+  // Phantom Premium 1.5: 8.5 N, 0.03 mm, 75 g, 0.04 N of friction (its maker's sheet). A coarse
+  // one of three parallel legs: 8 N, 0.06 mm; inertia and friction [chosen] as larger.
   return {{"premium", {0.075, 0.04, 0.2, 30e-6, 0.0006, 8.5, 0.001, {}}},
-          {"falcon", {0.15, 0.25, 0.6, 60e-6, 0.0006, 8.0, 0.002, {}}}};
+          {"parallel", {0.15, 0.25, 0.6, 60e-6, 0.0006, 8.0, 0.002, {}}}};
 }
 
 std::vector<twin::HandGrip> judgedHands() {

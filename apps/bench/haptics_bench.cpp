@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSmallMap = 256;  // px, where it has to be quick
 constexpr double kResolutions[] = {2e-6, 5e-6,
-                                   40e-6};  // m: magnetic levitation, a fine linkage, a Falcon
+                                   40e-6};  // m: magnetic levitation, a fine linkage, a coarse one
 constexpr double kOff = 0.15;               // of the threshold: steady motion above and below it
 
 nlohmann::json floorParams(const SearchFloor& floor) {

@@ -96,19 +96,19 @@ void append(Findings& all, const Findings& more) {
 /// What stands on the table: camera, board, devices, and how they were calibrated.
 Findings table(const station::Station& station, const PictureFacts& pictures,
                const DoctorOptions& o) {
-  const bool falcon = station.device.driver == station::DeviceDriver::falcon;
+  const haptics::DriverDescription* const real = station.device.real;
   Findings all = judgePictures(pictures, station.camera_rate_Hz, station.camera);
   all.push_back(judgePrint(station, o.bar_mm));
   all.push_back(askPedal(station));
   all.push_back(askDevice(station.device));
-  if (falcon)
-    append(all, {askFirmware(station.device), askUdevRule(udevFolders()),
-                 sayWatchdog(station.device.capabilities)});
+  append(all, askNeeds(station.device));
+  if (real && !real->udev_rule.empty()) all.push_back(askUdevRule(udevFolders(), *real));
+  if (real) all.push_back(sayWatchdog(station.device.capabilities));
   all.push_back(askSensor(station));
   if (station.tracker) all.push_back(askTracker(*station.tracker));
   append(all, judgeCalibrations(station, runtime::utcNow()));
   const ClockWatch watch;
-  all.push_back(judgeLoop(measureLoop(), falcon));
+  all.push_back(judgeLoop(measureLoop(), real != nullptr));
   all.push_back(judgeClocks(watch.facts(), pictures, record::isServer(o.records)));
   return all;
 }

@@ -9,93 +9,78 @@
 #include "apps/doctor/finding.h"
 #include "apps/runtime/clock.h"
 #include "apps/station/assets.h"
-#include "haptics/devices/falcon/falcon_driver.h"
-#include "haptics/devices/usb_transport.h"
 #include "haptics/sensors/net_ft_sensor.h"
 
 namespace palpa::doctor {
 namespace {
 
 constexpr std::int64_t kPatience = 3 * runtime::kSecond;  // a firmware upload takes two
+constexpr std::uint64_t kEnough = 200;                    // exchanges
 constexpr const char* kDevice = "haptic device";
 constexpr const char* kSensor = "force sensor";
 
-bool isGood(const std::filesystem::path& firmware) {
-  try {
-    haptics::readFalconFirmware(firmware);
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
-}
+constexpr std::int64_t kSure = runtime::kSecond / 2;  // what is wrong for so long stays so
 
-/// Tried until it is ready, has to be homed, or the time is up.
-haptics::FalconStatus triedFalcon(const station::DeviceSetup& setup) {
-  haptics::FalconDriver falcon(std::make_unique<haptics::LibusbTransport>(haptics::kFalconUsb),
-                               !isGood(setup.firmware)
-                                   ? std::vector<std::uint8_t>{}
-                                   : haptics::readFalconFirmware(setup.firmware));
+/// Tried until it is ready, has to be homed, or the time is up. One whose settings are no good is
+/// tried without them.
+Finding triedDevice(const station::DeviceSetup& setup) {
+  const bool good = std::ranges::none_of(
+      askNeeds(setup), [](const Finding& need) { return need.state == State::ill; });
+  const auto driver = setup.real->make(good ? setup.settings : haptics::DriverSettings());
   const runtime::SteadyClock clock;
-  falcon.open();
-  haptics::FalconStatus status = falcon.status();
+  driver->open();
+  haptics::DriverStatus status = driver->status();
+  std::int64_t wrong_since = -1;
   for (std::int64_t now = clock.now(); now < kPatience; now = clock.now()) {
-    const std::int64_t due = falcon.step(now);
-    status = falcon.status();
+    const std::int64_t due = driver->step(now);
+    status = driver->status();
     const bool settled =
-        status.state == haptics::FalconState::ready || status.state == haptics::FalconState::homing;
-    if (settled && status.exchanges > 200) break;
-    if (status.problem == haptics::FalconProblem::absent ||
-        status.problem == haptics::FalconProblem::denied ||
-        status.problem == haptics::FalconProblem::busy ||
-        status.problem == haptics::FalconProblem::needs_firmware)
-      break;
+        status.state == haptics::DriverState::ready || status.state == haptics::DriverState::homing;
+    if (settled && status.exchanges > kEnough) break;
+    const bool wrong = status.problem != 0 && status.exchanges == 0;
+    if (!wrong || wrong_since < 0) wrong_since = wrong ? now : -1;
+    if (wrong && now - wrong_since > kSure) break;
     clock.sleepUntil(std::min(due, now + 5 * runtime::kMillisecond));
   }
-  falcon.close();
-  return status;
+  driver->close();
+  return judgeDriver(status, setup.real->title, driver->words(status));
 }
 
 }  // namespace
 
-Finding judgeFalcon(const haptics::FalconStatus& status) {
-  using haptics::FalconProblem;
-  using haptics::FalconState;
-  if (status.problem != FalconProblem::none)
-    return troubled(kDevice, State::ill, haptics::falconError(status.problem).what());
-  if (status.state == FalconState::homing)
-    return {kDevice, State::note, "the Novint Falcon is there and does not know where its grip is",
-            haptics::falconInstruction(status.state)};
-  if (status.state != FalconState::ready)
-    return {kDevice, State::ill, "the Novint Falcon does not answer",
-            haptics::falconInstruction(status.state)};
+Finding judgeDriver(const haptics::DriverStatus& status, const std::string& device,
+                    const std::string& words) {
+  using haptics::DriverState;
+  if (status.problem != 0) return troubled(kDevice, State::ill, words);
+  if (status.state == DriverState::homing)
+    return {kDevice, State::note, device + " is there and does not know where its grip is", words};
+  if (status.state != DriverState::ready)
+    return {kDevice, State::ill, device + " does not answer", words};
   if (status.missed * 20 > status.exchanges) {
     const std::string missed =
         std::to_string(status.missed) + " of " + std::to_string(status.exchanges + status.missed);
-    return {kDevice, State::note, missed + " messages to the Novint Falcon had no answer",
+    return {kDevice, State::note, missed + " messages to " + device + " had no answer",
             "Use another cable or a USB port that no camera is on"};
   }
-  return {kDevice, State::well, "the Novint Falcon answers and knows where its grip is"};
+  return {kDevice, State::well, device + " answers and knows where its grip is"};
 }
 
-Finding askFirmware(const station::DeviceSetup& setup) {
-  if (setup.firmware.empty())
-    return {"firmware", State::absent,
-            "the station's file names none: something else must give the Falcon its firmware "
-            "whenever its power was off"};
-  try {
-    return {"firmware", State::well,
-            text("good: %.0f bytes in ",
-                 static_cast<double>(haptics::readFalconFirmware(setup.firmware).size())) +
-                setup.firmware.string()};
-  } catch (const std::exception& e) {
-    return troubled("firmware", State::ill, e.what());
+Findings askNeeds(const station::DeviceSetup& setup) {
+  Findings all;
+  if (!setup.real || !setup.real->needs) return all;
+  for (const haptics::DriverNeed& need : setup.real->needs(setup.settings)) {
+    const auto state = static_cast<State>(need.state);
+    all.push_back(need.fix.empty() && state == State::ill
+                      ? troubled(need.subject, state, need.verdict)
+                      : Finding{need.subject, state, need.verdict, need.fix});
   }
+  return all;
 }
 
 Finding askDevice(const station::DeviceSetup& setup) {
   using station::DeviceDriver;
   try {
-    if (setup.driver == DeviceDriver::falcon) return judgeFalcon(triedFalcon(setup));
+    if (setup.real) return triedDevice(setup);
   } catch (const UsageError& e) {
     return troubled(kDevice, State::ill, e.what());
   } catch (const Error& e) {
@@ -165,33 +150,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRule = "Falcon's permission (udev rule)";
-constexpr const char* kRuleFile = "60-palpa-falcon.rules";
+constexpr const char* kRule = "permission (udev rule)";
 
-bool holds(const std::string& line, const char* words) {
+bool holds(const std::string& line, const std::string& words) {
   return line.find(words) != std::string::npos;
 }
 
-/// A line for the Falcon; empty: there is none in the file.
-std::string lineIn(const fs::path& file) {
+std::string inHex(std::uint16_t number) { return text("%04x", unsigned{number}); }
+
+bool names(const std::string& line, const haptics::UsbId& id) {
+  return holds(line, inHex(id.vendor)) && holds(line, inHex(id.product));
+}
+
+/// A line for the device; empty: there is none in the file.
+std::string lineIn(const fs::path& file, const haptics::DriverDescription& device) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     const std::size_t begin = line.find_first_not_of(" \t");
-    if (begin != std::string::npos && line[begin] != '#' && holds(line, "0403") &&
-        holds(line, "cb48"))
+    const bool counts = begin != std::string::npos && line[begin] != '#';
+    if (counts && std::ranges::any_of(device.usb, [&](auto id) { return names(line, id); }))
       return line;
   }
   return {};
 }
 
-std::string remedy() {
-  std::string file = kRuleFile;
+std::string remedy(const haptics::DriverDescription& device) {
+  std::string file = device.udev_rule;
   try {
     file = station::assetFile("udev/" + file).string();
   } catch (const std::exception&) {  // that the data are missing is told elsewhere
   }
   return "Ask whoever looks after the computer, as root: cp " + file +
-         " /etc/udev/rules.d/, then udevadm control --reload, and plug the Falcon in again. The "
+         " /etc/udev/rules.d/, then udevadm control --reload, and plug the device in again. The "
          "Debian package brings the rule";
 }
 
@@ -204,22 +194,23 @@ const std::vector<fs::path>& udevFolders() {
   return folders;
 }
 
-Finding askUdevRule(const std::vector<fs::path>& folders) {
+Finding askUdevRule(const std::vector<fs::path>& folders,
+                    const haptics::DriverDescription& device) {
   std::set<std::string> seen;
   std::error_code none;
   for (const fs::path& folder : folders)
     for (const auto& entry : fs::directory_iterator(folder, none)) {
       const fs::path& file = entry.path();
       if (file.extension() != ".rules" || !seen.insert(file.filename().string()).second) continue;
-      const std::string line = lineIn(file);
+      const std::string line = lineIn(file, device);
       if (line.empty()) continue;
       if (holds(line, "uaccess") || holds(line, "GROUP") || holds(line, "0666"))
-        return {kRule, State::well, "the Falcon may be used: " + file.string()};
-      return {kRule, State::note,
-              file.string() + " names the Falcon and lets nobody but root use it", remedy()};
+        return {kRule, State::well, device.title + " may be used: " + file.string()};
+      return {kRule, State::note, file.string() + " names it and lets nobody but root use it",
+              remedy(device)};
     }
-  return {kRule, State::note, "there is none: only the administrator (root) may use the Falcon",
-          remedy()};
+  return {kRule, State::note, "there is none: only the administrator (root) may use the device",
+          remedy(device)};
 }
 
 namespace {

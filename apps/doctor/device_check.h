@@ -8,20 +8,22 @@
 #include "apps/link/igtl/tracker_client.h"
 #include "apps/station/station_file.h"
 #include "apps/station/station_sections.h"
-#include "haptics/devices/falcon/falcon_link.h"
+#include "haptics/devices/driver.h"
 
 namespace palpa::doctor {
 
-/// What a Falcon's link says after it has been tried.
-Finding judgeFalcon(const haptics::FalconStatus& status);
+/// What a driver says after its device has been tried; `words`: what is wrong, or what to do.
+Finding judgeDriver(const haptics::DriverStatus& status, const std::string& device,
+                    const std::string& words);
 
-/// The firmware file that a station names for its Falcon: there, and as large as a firmware is.
-Finding askFirmware(const station::DeviceSetup& setup);
+/// What a driver found of the things that its device needs.
+Findings askNeeds(const station::DeviceSetup& setup);
 
 /// Where udev finds its rules; of two files of one name the first counts.
 const std::vector<std::filesystem::path>& udevFolders();
-/// The rule that lets whoever sits at the station open a Falcon.
-Finding askUdevRule(const std::vector<std::filesystem::path>& folders);
+/// The rule that lets whoever sits at the station open a device on USB.
+Finding askUdevRule(const std::vector<std::filesystem::path>& folders,
+                    const haptics::DriverDescription& device);
 
 /// What becomes of the device's force when the program dies.
 Finding sayWatchdog(const haptics::DeviceCapabilities& device);

@@ -5,29 +5,28 @@
 #include "apps/runtime/activity.h"
 #include "apps/runtime/channels.h"
 #include "apps/runtime/flight_sink.h"
-#include "haptics/devices/falcon/falcon_driver.h"
+#include "haptics/devices/driver.h"
 #include "haptics/sensors/net_ft_sensor.h"
 
 namespace palpa::runtime {
 
-/// DEVICE: a Falcon's own thread. Opens it, exchanges packets when they are due, tells what the
-/// person at the station has to know (kind "device", at every change); its end, whatever the
+/// DEVICE: a driver's own thread. Opens the device, exchanges with it when that is due, tells what
+/// the person at the station has to know (kind "device", at every change); its end, whatever the
 /// reason, sends zero force.
-class FalconActivity final : public Activity {
+class DriverActivity final : public Activity {
  public:
-  FalconActivity(haptics::FalconDriver& driver, EventQueue<Event>& notices)
+  DriverActivity(haptics::Driver& driver, EventQueue<Event>& notices)
       : driver_(driver), notices_(notices) {}
-  const char* name() const override { return "falcon"; }
+  const char* name() const override { return "device"; }
   std::int64_t step(std::int64_t now_ns) override;
   void end() noexcept override;  ///< zero force, closed
   /// Its last step left it ready: a force may be on it, and no step may take long. Any thread.
   bool mayPush() const noexcept { return may_push_.load(); }
 
  private:
-  haptics::FalconDriver& driver_;
+  haptics::Driver& driver_;
   EventQueue<Event>& notices_;
-  haptics::FalconState reported_state_ = haptics::FalconState::closed;
-  haptics::FalconProblem reported_problem_ = haptics::FalconProblem::none;
+  haptics::DriverStatus reported_;
   bool opened_ = false;
   std::atomic<bool> may_push_{false};
 };

@@ -8,7 +8,6 @@
 #include "apps/os/signals.h"
 #include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
-#include "haptics/devices/falcon/falcon_link.h"
 
 namespace palpa::session {
 namespace {
@@ -29,11 +28,15 @@ std::optional<bool> farewellFrom(int line) {
 
 }  // namespace
 
-ForceGuard::ForceGuard() {
+ForceGuard::ForceGuard(const haptics::DriverDescription& device,
+                       const haptics::DriverSettings& settings) {
   if (os::programName() != "palpa") return;
   const os::ProcessId self = os::thisProcess();
+  std::vector<std::string> words{kGuardWord, std::to_string(self.pid), std::to_string(self.began),
+                                 device.name};
+  for (std::string& word : settings.words()) words.push_back(std::move(word));
   try {
-    guard_ = os::startWithLine({kGuardWord, std::to_string(self.pid), std::to_string(self.began)});
+    guard_ = os::startWithLine(words);
   } catch (const Error&) {  // told at the ready check: nobody stands
   }
 }
@@ -64,26 +67,25 @@ GuardWatch watchSession(int line, const os::ProcessId& session) {
   }
 }
 
-/// The link's first packets carry zero already; so does its last.
-bool takeFalconForceAway(haptics::UsbTransport& usb) {
-  haptics::FalconLink link(usb, {});
+/// Nobody commands: a driver's exchanges carry zero then, the last one in any case.
+bool takeForceAway(haptics::Driver& driver) {
   const runtime::SteadyClock clock;
-  link.open();
-  const auto talks = [&link] {
-    const haptics::FalconState state = link.status().state;
-    return state == haptics::FalconState::homing || state == haptics::FalconState::ready;
+  driver.open();
+  const auto talks = [&driver] {
+    const haptics::DriverState state = driver.status().state;
+    return state == haptics::DriverState::homing || state == haptics::DriverState::ready;
   };
   for (std::int64_t now = clock.now(); now < kClaimPatience && !talks(); now = clock.now()) {
-    const std::int64_t due_ns = link.step(now, {});
+    const std::int64_t due_ns = driver.step(now);
     if (!talks()) clock.sleepUntil(std::min(due_ns, now + 5 * runtime::kMillisecond));
   }
   const bool taken = talks();
-  link.close();
+  driver.close();
   return taken;
 }
 
 bool isGuard(const std::vector<std::string>& words) {
-  return words.size() == 3 && words[0] == kGuardWord;
+  return words.size() >= 4 && words[0] == kGuardWord;
 }
 
 int standGuard(const std::vector<std::string>& words) {
@@ -92,8 +94,11 @@ int standGuard(const std::vector<std::string>& words) {
   const os::ProcessId session{std::atoi(words[1].c_str()),
                               std::strtoull(words[2].c_str(), nullptr, 10)};
   if (watchSession(kLine, session) == GuardWatch::dismissed) return EXIT_SUCCESS;
-  haptics::LibusbTransport usb(haptics::kFalconUsb);
-  return takeFalconForceAway(usb) ? EXIT_SUCCESS : EXIT_FAILURE;
+  const haptics::DriverDescription* const device = haptics::driverNamed(words[3]);
+  if (!device) return EXIT_FAILURE;
+  const std::unique_ptr<haptics::Driver> driver = device->make(
+      haptics::DriverSettings::ofWords({words.begin() + 4, words.end()}, device->fields));
+  return takeForceAway(*driver) ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace palpa::session

@@ -6,7 +6,7 @@
 
 #include "apps/os/child_process.h"
 #include "apps/runtime/activity.h"
-#include "haptics/devices/usb_transport.h"
+#include "haptics/devices/driver.h"
 
 namespace palpa::session {
 
@@ -16,7 +16,9 @@ namespace palpa::session {
 /// every 50 ms, and a farewell when the session ends in order.
 class ForceGuard final : public runtime::Activity {
  public:
-  ForceGuard();  ///< without a process to be had, or in another program than `palpa`: none stands
+  /// For that device, as the station's file describes it. Without a process to be had, or in
+  /// another program than `palpa`, none stands.
+  ForceGuard(const haptics::DriverDescription& device, const haptics::DriverSettings& settings);
   ~ForceGuard() override;
   ForceGuard(const ForceGuard&) = delete;
   ForceGuard& operator=(const ForceGuard&) = delete;
@@ -39,12 +41,12 @@ enum class GuardWatch : std::uint8_t {
 /// goes on: its driver commands zero by itself.
 GuardWatch watchSession(int line, const os::ProcessId& session);
 
-/// Claims a Falcon that nobody holds, and sends it zero force; up to 3 s. False: it does not
-/// answer.
-bool takeFalconForceAway(haptics::UsbTransport& usb);
+/// Opens a device that nobody holds any more, which is zero force from the first exchange on; up to
+/// 3 s. False: it does not answer.
+bool takeForceAway(haptics::Driver& driver);
 
-/// The guard's whole life, where `words` are those of a guard: `palpa force-guard NUMBER BEGAN`,
-/// started by a session alone.
+/// The guard's whole life, where `words` are those of a guard: `palpa force-guard NUMBER BEGAN
+/// DRIVER [FIELD=VALUE...]`, started by a session alone.
 bool isGuard(const std::vector<std::string>& words);
 int standGuard(const std::vector<std::string>& words);
 

@@ -48,10 +48,10 @@ std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const Ne
   return trials;
 }
 
-/// Of a device with four buttons those that do nothing else, in their order.
+/// Of a real device the buttons that do nothing else, in their order.
 std::array<std::uint32_t, 3> answerButtons(const station::Station& station) {
   std::array<std::uint32_t, 3> answers{};
-  if (station.device.driver != station::DeviceDriver::falcon) return answers;
+  if (station.device.driver != station::DeviceDriver::real) return answers;
   const std::uint32_t used = station.device.plunger_button | station.safety.deadman_button;
   std::size_t given = 0;
   for (std::uint32_t button = 1; button <= 8 && given < answers.size(); button <<= 1)

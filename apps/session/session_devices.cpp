@@ -12,8 +12,6 @@
 #include "apps/station/assets.h"
 #include "apps/trial/trial_status.h"
 #include "apps/twin/soft_samples.h"
-#include "haptics/devices/falcon/falcon_protocol.h"
-#include "haptics/devices/usb_transport.h"
 
 namespace palpa::session {
 namespace {
@@ -191,15 +189,12 @@ void SessionDevices::openDevice(const std::optional<MouseHandSetup>& mouse, runt
   haptics::HapticDevice* device = &channel_;
   if (bench_moves_) {
     // the bench's own
-  } else if (setup.driver == DeviceDriver::falcon) {
-    falcon_ = std::make_unique<haptics::FalconDriver>(
-        std::make_unique<haptics::LibusbTransport>(haptics::kFalconUsb),
-        setup.firmware.empty() ? std::vector<std::uint8_t>{}
-                               : haptics::readFalconFirmware(setup.firmware));
-    falcon_activity_ = std::make_unique<runtime::FalconActivity>(*falcon_, bus.device_to_task);
-    device = falcon_.get();
+  } else if (setup.real) {
+    driver_ = setup.real->make(setup.settings);
+    driver_activity_ = std::make_unique<runtime::DriverActivity>(*driver_, bus.device_to_task);
+    device = driver_.get();
     if (device->capabilities().watchdog == haptics::Watchdog::unknown)
-      guard_ = std::make_unique<ForceGuard>();
+      guard_ = std::make_unique<ForceGuard>(*setup.real, setup.settings);
   } else if (setup.driver == DeviceDriver::replay) {
     replay_ =
         std::make_unique<haptics::ReplayDevice>(setup.capabilities, readingsOf(setup.recording));
@@ -215,7 +210,7 @@ void SessionDevices::openDevice(const std::optional<MouseHandSetup>& mouse, runt
     corrected_.emplace(*device, station_.workspace);
     device = &*corrected_;
   }
-  plunger_.emplace(*device, falcon_ ? setup.plunger_button : 0);
+  plunger_.emplace(*device, driver_ ? setup.plunger_button : 0);
 }
 
 void SessionDevices::openSensor(const SessionOptions& options, double tip_radius,
@@ -267,7 +262,7 @@ void SessionDevices::addTo(runtime::Executive& executive) {
     executive.add(bench_->activity(),
                   {0, true, false});  // a device moves in time, whatever the computer does
   if (mouse_) executive.add(*mouse_, {0, false, false});
-  if (falcon_activity_) executive.add(*falcon_activity_, {0, true, false});
+  if (driver_activity_) executive.add(*driver_activity_, {0, true, false});
   if (guard_) executive.add(*guard_, {0, false, false});
   if (net_ft_activity_) executive.add(*net_ft_activity_, {0, false, false});
 }
@@ -283,10 +278,10 @@ std::vector<report::Fact> SessionDevices::facts() const {
   if (const std::uint64_t late = channel_.timeouts())
     facts.push_back({"Forces taken away by the device's watchdog", std::to_string(late),
                      "the haptic loop had not commanded for 10 ms"});
-  if (falcon_) {
-    const haptics::FalconStatus status = falcon_->status();
+  if (driver_) {
+    const haptics::DriverStatus status = driver_->status();
     facts.push_back(
-        {"Packets exchanged with the Falcon", std::to_string(status.exchanges),
+        {"Exchanges with the haptic device", std::to_string(status.exchanges),
          std::to_string(status.missed) + " without an answer; opened " + howOften(status.opened)});
   }
   if (net_ft_) {

@@ -37,9 +37,9 @@ station::LumpLibrary libraryOn(const SessionOptions& options, const station::Sta
                                station::LumpLibrary library);
 
 /// Who or what holds the tool, behind HapticDevice, and what measures the force on it: the bench's
-/// twins, a person's mouse, a Falcon, a recorded hand; the station file and the operator decide.
-/// Their threads are its own. Throws UsageError / Error when something that the station names is
-/// not there.
+/// twins, a person's mouse, a real device, a recorded hand; the station file and the operator
+/// decide. Their threads are its own. Throws UsageError / Error when something that the station
+/// names is not there.
 class SessionDevices {
  public:
   /// Who may hold the tool: a simulated person on the bench, and somebody with a mouse (none: a
@@ -76,7 +76,7 @@ class SessionDevices {
   /// For its camera; null where recorded pictures stand for it
   twin::VirtualBench* bench() { return bench_.get(); }
   MouseHand* mouse() { return mouse_.get(); }  ///< null: nobody leads with the mouse
-  const runtime::FalconActivity* falcon() const { return falcon_activity_.get(); }  ///< or null
+  const runtime::DriverActivity* driver() const { return driver_activity_.get(); }  ///< or null
   PointingHand* pointing() { return pointing_; }  ///< null: nobody points at the bench
 
   void addTo(runtime::Executive& executive);  ///< what has to run beside the loop
@@ -105,8 +105,8 @@ class SessionDevices {
   std::optional<runtime::ForceSensing> sensing_;
   std::unique_ptr<twin::VirtualBench> bench_;
   std::unique_ptr<MouseHand> mouse_;
-  std::unique_ptr<haptics::FalconDriver> falcon_;
-  std::unique_ptr<runtime::FalconActivity> falcon_activity_;
+  std::unique_ptr<haptics::Driver> driver_;
+  std::unique_ptr<runtime::DriverActivity> driver_activity_;
   std::unique_ptr<ForceGuard> guard_;  ///< of a device without a watchdog; takes leave last
   std::unique_ptr<haptics::ReplayDevice> replay_;
   std::optional<runtime::CorrectedDevice> corrected_;  ///< where the workspace was calibrated

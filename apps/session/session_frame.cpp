@@ -265,7 +265,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer,
                                      world_.tick.period_ns);
   ProgressLine progress(options_.quiet);
-  SessionWatch watch(*executive_, channels_, bus_.stop, devices_.falcon(), live_.get());
+  SessionWatch watch(*executive_, channels_, bus_.stop, devices_.driver(), live_.get());
   const WindowWatch window([&watch] { watch.windowIsLost(); });
   std::optional<StopKeyWatch> stop_key;
   if (stop_key_) stop_key.emplace(*stop_key_, bus_.stop);

@@ -14,7 +14,7 @@ constexpr std::int64_t kSignalPeriod = 5 * runtime::kMillisecond;
 constexpr std::int64_t kVirtualPeriod = 50 * runtime::kMillisecond;
 constexpr std::int64_t kStuckPeriod = 250 * runtime::kMillisecond;
 constexpr std::int64_t kStuck = 2 * runtime::kSecond;
-// What may take long: a Falcon without power is greeted for 5 s, its firmware takes as long.
+// What may take long: a device without power is greeted for seconds, a firmware takes as long.
 constexpr std::int64_t kSlowStuck = 10 * runtime::kSecond;
 constexpr int kKeyWait_ms = 50;
 constexpr int kMostTold = 4;  // of one part's silences; a slow computer's would hide all else
@@ -27,7 +27,7 @@ std::string partInWords(const std::string& activity) {
       {"camera", "the camera"},
       {"recorder", "the evidence"},
       {"room film", "the camera in the room"},
-      {"falcon", "the haptic device"},
+      {"device", "the haptic device"},
       {"haptic", "the haptic loop"},
       {"igtl", "OpenIGTLink"},
       {"tracker", "the tracker"},
@@ -85,8 +85,8 @@ void SessionWatch::nameTheStuck(std::int64_t now_ns) {
 
 runtime::Executive::Stuck SessionWatch::stuckNow() const {
   runtime::Executive::Stuck stuck = executive_.stuckFor(kStuck);
-  if (falcon_ && !falcon_->mayPush() && !has(executive_.stuckFor(kSlowStuck), falcon_->name()))
-    std::erase(stuck, falcon_->name());
+  if (device_ && !device_->mayPush() && !has(executive_.stuckFor(kSlowStuck), device_->name()))
+    std::erase(stuck, device_->name());
   if (console_ && console_->silentFor(live::kLineHangs)) stuck.push_back("console");
   return stuck;
 }
@@ -94,7 +94,7 @@ runtime::Executive::Stuck SessionWatch::stuckNow() const {
 /// A device's motors keep what they had, whatever is asked of them. One that was not ready was sent
 /// no force, and is no matter for the report: its driver says what it lacks.
 void SessionWatch::tellSilent(const std::string& activity) {
-  const bool device = falcon_ && activity == falcon_->name(), pushes = device && falcon_->mayPush();
+  const bool device = device_ && activity == device_->name(), pushes = device && device_->mayPush();
   const int time = ++silences_[activity];
   if (time > kMostTold && !pushes) return;
   const std::string words =
@@ -106,7 +106,7 @@ void SessionWatch::tellSilent(const std::string& activity) {
 }
 
 void SessionWatch::tellBack(const std::string& activity) {
-  const bool device = falcon_ && activity == falcon_->name();
+  const bool device = device_ && activity == device_->name();
   if (silences_[activity] >= kMostTold && !device) return;
   channels_.signals_to_task.push(
       {trial::UserCommand::remark, partInWords(activity) + " answers again", 0});

@@ -26,13 +26,13 @@ namespace palpa::session {
 /// which gives way to all others.
 class SessionWatch final : public runtime::Activity {
  public:
-  /// `falcon`: the device, if it is one. `console`: who looks on, if anybody may.
+  /// `device`: of a real one, or null. `console`: who looks on, if anybody may.
   SessionWatch(runtime::Executive& executive, trial::Channels& channels, runtime::StopSwitch& stop,
-               const runtime::FalconActivity* falcon, const live::LiveSession* console)
+               const runtime::DriverActivity* device, const live::LiveSession* console)
       : executive_(executive),
         channels_(channels),
         stop_(stop),
-        falcon_(falcon),
+        device_(device),
         console_(console) {}
   const char* name() const override { return "watch"; }
   std::int64_t step(std::int64_t now_ns) override;
@@ -51,7 +51,7 @@ class SessionWatch final : public runtime::Activity {
   runtime::Executive& executive_;
   trial::Channels& channels_;
   runtime::StopSwitch& stop_;
-  const runtime::FalconActivity* const falcon_;
+  const runtime::DriverActivity* const device_;
   const live::LiveSession* const console_;
   std::atomic<bool> window_lost_{false};
   os::InterruptNote note_;

@@ -4,9 +4,10 @@
 #include <numbers>
 
 #include "anatomy/base/enum_names.h"
+#include "anatomy/base/file_schema.h"
+#include "anatomy/base/nearest_word.h"
 #include "anatomy/base/units.h"
 #include "anatomy/geometry/pose.h"
-#include "haptics/devices/falcon/falcon_driver.h"
 
 namespace palpa::station {
 namespace {
@@ -30,7 +31,52 @@ std::uint32_t readButton(const JsonFile& file, const std::string& at) {
   return file.has(at) ? 1u << file.integer(at, 0, 31) : 0;
 }
 
-const EnumNames<DeviceDriver> kDeviceDrivers{"virtual", "falcon", "mouse", "replay"};
+/// The last three of DeviceDriver are nobody's; in place of "real" stand the names of drivers.
+void readDriver(const JsonFile& file, DeviceSetup& device) {
+  const std::string name = file.text("device/driver");
+  device.real = haptics::driverNamed(name);
+  if (device.real)
+    device.driver = DeviceDriver::real;
+  else if (name == "mouse")
+    device.driver = DeviceDriver::mouse;
+  else if (name == "replay")
+    device.driver = DeviceDriver::replay;
+  else if (name != "virtual") {
+    std::string known = "virtual, ";
+    for (const haptics::DriverDescription* one : haptics::drivers()) known += one->name + ", ";
+    file.refuse("device/driver", "is \"" + name + "\"; known: " + known + "mouse, replay");
+  }
+}
+
+bool isRemark(const std::string& field) {
+  return field.ends_with("about") || field.ends_with("source");
+}
+
+/// The fields that the driver declares, and no others beside those that every device has.
+void readSettings(const JsonFile& file, const std::filesystem::path& folder, DeviceSetup& device) {
+  static const std::vector<haptics::DriverField> none;
+  const std::vector<haptics::DriverField>& fields = device.real ? device.real->fields : none;
+  std::vector<std::string> known = fieldsOf("station", "device");
+  for (const haptics::DriverField& field : fields) known.push_back(field.name);
+  for (const auto& [name, value] : file.json().at("device").items())
+    if (!isRemark(name) && std::find(known.begin(), known.end(), name) == known.end())
+      file.refuse("device/" + name, "is unknown" + didYouMean(name, known));
+  for (const haptics::DriverField& field : fields) {
+    using Kind = haptics::DriverField::Kind;
+    const std::string at = "device/" + field.name;
+    if (!file.has(at)) continue;
+    if (field.kind == Kind::text)
+      device.settings.set(field.name, file.text(at));
+    else if (field.kind == Kind::file)
+      device.settings.set(field.name, (folder / file.text(at)).string());
+    else if (field.kind == Kind::whole)
+      device.settings.set(field.name, double{0} + file.integer(at, static_cast<int>(field.least),
+                                                               static_cast<int>(field.most)));
+    else
+      device.settings.set(field.name, file.number(at, field.least, field.most));
+  }
+}
+
 const EnumNames<ForceSensorDriver> kForceSensorDrivers{"virtual", "net_ft"};
 
 Packed3 readPacked(const JsonFile& file, const std::string& at, double unit) {
@@ -60,11 +106,11 @@ Pose readPose(const JsonFile& file, const std::string& at) {
 
 DeviceSetup readDevice(const JsonFile& file, const std::filesystem::path& folder) {
   DeviceSetup device;
-  device.driver = kDeviceDrivers.in(file, "device/driver");
-  if (device.driver == DeviceDriver::falcon) {
-    device.capabilities = haptics::falconCapabilities();
+  readDriver(file, device);
+  readSettings(file, folder, device);
+  if (device.real) {
+    device.capabilities = device.real->capabilities(device.settings);
     readMechanism(file, device.capabilities);
-    if (file.has("device/firmware")) device.firmware = folder / file.text("device/firmware");
   } else {
     readAll(file, device.capabilities);
   }

@@ -10,24 +10,26 @@
 #include "anatomy/geometry/pose.h"
 #include "ar/boards/board.h"
 #include "haptics/device.h"
+#include "haptics/devices/driver.h"
 #include "haptics/sensors/net_ft_sensor.h"
 #include "haptics/sensors/tool_load.h"
 
 namespace palpa::station {
 
 /// Who moves the tool: "virtual" (the bench's device, held by a simulated operator or led by a
-/// person's mouse), "falcon" (a Novint Falcon on USB), "mouse" (no haptic device: forces are drawn,
-/// not felt), "replay" (the hand of a recorded session).
-enum class DeviceDriver { bench, falcon, mouse, replay };
+/// person's mouse), the name of one of haptics::drivers(), "mouse" (no haptic device: forces are
+/// drawn, not felt), "replay" (the hand of a recorded session).
+enum class DeviceDriver { bench, real, mouse, replay };
 
 struct DeviceSetup {
   DeviceDriver driver = DeviceDriver::bench;
   haptics::DeviceCapabilities capabilities;
-  double angle_resolution = 0;      ///< rad, of its gimbal's encoders; 0: not known
-  double continuous_force_N = 0;    ///< what its drives bear for long; 0: not known
-  double thermal_tau = 60;          ///< s
-  std::filesystem::path firmware;   ///< falcon: its maker's file; empty: it must be running
-  std::filesystem::path recording;  ///< replay: a session.palpa
+  double angle_resolution = 0;    ///< rad, of its gimbal's encoders; 0: not known
+  double continuous_force_N = 0;  ///< what its drives bear for long; 0: not known
+  double thermal_tau = 60;        ///< s
+  const haptics::DriverDescription* real = nullptr;  ///< the driver of a real one, and
+  haptics::DriverSettings settings;                  ///< its own fields
+  std::filesystem::path recording;                   ///< replay: a session.palpa
   /// bits of DeviceReading::buttons; 0: the device has a plunger of its own
   std::uint32_t plunger_button = 0;
 };

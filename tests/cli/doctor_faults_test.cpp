@@ -29,7 +29,7 @@ struct Fault {
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 const std::vector<std::string> kOfAFalcon{
-    "haptic device", "Falcon's permission (udev rule)", "calibrations",
+    "haptic device", "permission (udev rule)", "calibrations",
     "forces (haptic loop)"};  // of the shipped station; that the computer may not refuse real time
 
 const nlohmann::json kHere{{"position_mm", {0, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}};

@@ -17,21 +17,21 @@ using test::Station;
 TEST(FalconDriver, UploadsItsImageThenHomesThenIsReady) {
   Station s;
   s.rig.step();
-  EXPECT_EQ(s.rig.state(), FalconState::uploading);
-  ASSERT_TRUE(s.rig.reach(FalconState::homing));
+  EXPECT_EQ(s.rig.state(), DriverState::preparing);
+  ASSERT_TRUE(s.rig.reach(DriverState::homing));
   EXPECT_EQ(s.twin.image, test::someImage());
   EXPECT_EQ(s.twin.chunks, (8492 + 61) / 62);
   EXPECT_EQ(s.twin.largest_chunk, 62u);
   EXPECT_EQ(s.twin.latency_ms, 1);
-  ASSERT_TRUE(s.rig.reach(FalconState::ready));
-  EXPECT_EQ(s.rig.driver.status().uploads, 1u);
-  EXPECT_EQ(s.rig.driver.status().problem, FalconProblem::none);
+  ASSERT_TRUE(s.rig.reach(DriverState::ready));
+  EXPECT_EQ(s.rig.driver.details().uploads, 1u);
+  EXPECT_EQ(s.rig.driver.details().problem, FalconProblem::none);
 }
 
 TEST(FalconDriver, AZeroBeforeTheGreetingIsPassedOver) {
   Station s;
   s.twin.zero_before_greeting = true;
-  EXPECT_TRUE(s.rig.reach(FalconState::homing));
+  EXPECT_TRUE(s.rig.reach(DriverState::homing));
   EXPECT_EQ(s.twin.resets, 1);
 }
 
@@ -41,35 +41,35 @@ TEST(FalconDriver, AWrongEchoStartsTheUploadAnew) {
     s.twin.corrupt_chunk = chunk;
     s.rig.step();
     s.rig.step();
-    EXPECT_EQ(s.rig.driver.status().problem, FalconProblem::upload_failed);
-    EXPECT_EQ(s.rig.state(), FalconState::opening);
+    EXPECT_EQ(s.rig.driver.details().problem, FalconProblem::upload_failed);
+    EXPECT_EQ(s.rig.state(), DriverState::opening);
     EXPECT_EQ(s.twin.chunks, chunk + 1) << "nothing is sent after it";
-    ASSERT_TRUE(s.rig.reach(FalconState::ready)) << chunk;
+    ASSERT_TRUE(s.rig.reach(DriverState::ready)) << chunk;
     EXPECT_EQ(s.twin.resets, 2);
     EXPECT_EQ(s.twin.image, test::someImage());
-    EXPECT_EQ(s.rig.driver.status().problem, FalconProblem::none);
+    EXPECT_EQ(s.rig.driver.details().problem, FalconProblem::none);
   }
 }
 
 TEST(FalconDriver, RunningFirmwareIsLeftAlone) {
   Station s(test::Bytes{});
   s.twin.startFirmware();
-  EXPECT_TRUE(s.rig.reach(FalconState::ready));
+  EXPECT_TRUE(s.rig.reach(DriverState::ready));
   EXPECT_EQ(s.twin.resets, 0);
 }
 
 TEST(FalconDriver, WithoutFirmwareItSaysSo) {
   Station s(test::Bytes{});
   s.rig.step();
-  EXPECT_EQ(s.rig.driver.status().problem, FalconProblem::needs_firmware);
-  EXPECT_EQ(s.rig.state(), FalconState::opening);
+  EXPECT_EQ(s.rig.driver.details().problem, FalconProblem::needs_firmware);
+  EXPECT_EQ(s.rig.state(), DriverState::opening);
 }
 
 TEST(FalconDriver, NoForceAndRedLightUntilHomed) {
   Station s;
   s.rig.f_D = {3, -2, 4};
-  ASSERT_TRUE(s.rig.reach(FalconState::homing));
-  while (s.rig.state() == FalconState::homing) {
+  ASSERT_TRUE(s.rig.reach(DriverState::homing));
+  while (s.rig.state() == DriverState::homing) {
     EXPECT_EQ(s.rig.driver.read(s.rig.now_ns).homed, 0u);
     s.rig.step();
   }
@@ -88,8 +88,8 @@ TEST(FalconDriver, NoForceAndRedLightUntilHomed) {
 TEST(FalconDriver, FiveThousandCyclesEveryByteInPlace) {
   Station s;
   test::cycleAndCheck(s.rig, 5000);
-  EXPECT_EQ(s.rig.driver.status().missed, 0u);
-  EXPECT_EQ(s.rig.driver.status().skipped_bytes, 0u);
+  EXPECT_EQ(s.rig.driver.details().missed, 0u);
+  EXPECT_EQ(s.rig.driver.details().skipped_bytes, 0u);
 }
 
 TEST(FalconDriver, TheLastPacketIsZero) {
@@ -111,7 +111,7 @@ TEST(FalconDriver, TheLastPacketIsZeroAlsoWhenItIsDestroyed) {
   {
     test::FalconRig rig(std::make_unique<test::ScriptedUsb>(twin), twin, {});
     rig.f_D = {0, 1, 0};
-    ASSERT_TRUE(rig.reach(FalconState::ready));
+    ASSERT_TRUE(rig.reach(DriverState::ready));
     for (int i = 0; i < 3; ++i) rig.step();
     ASSERT_TRUE(rig.lastCommand().pushes());
   }
@@ -145,7 +145,7 @@ TEST(FalconDriver, LoopAndDeviceThreadExchangeWholeValues) {
   EXPECT_EQ(back, 0u);
   EXPECT_EQ(torn, 0u);
   EXPECT_GT(seen, 0u);
-  EXPECT_EQ(s.rig.driver.status().missed, 0u);
+  EXPECT_EQ(s.rig.driver.details().missed, 0u);
 }
 
 TEST(FalconDriver, ReadAndCommandNeverAllocate) {

@@ -53,7 +53,7 @@ struct Session {
   test::Station station;
   std::unique_ptr<Executive> executive = makeVirtualExecutive();
   Bus bus{TimeMode::virtual_time};
-  FalconActivity falcon{station.rig.driver, bus.device_to_task};
+  DriverActivity falcon{station.rig.driver, bus.device_to_task};
   std::unique_ptr<HapticActivity> haptic;
   std::int64_t end_ns = 0;
   LocalGeometry geometry_now = haptics::NeedleBench{}.geometry;
@@ -135,7 +135,7 @@ TEST(FalconLoop, AfterTheSessionTheLastPacketIsZero) {
   s.runUntil(4'500 * kMs);  // deepest: it ends in contact
   ASSERT_GT(s.tick().f_command_D[2], 0.02);
   EXPECT_FALSE(s.station.rig.lastCommand().pushes());
-  EXPECT_EQ(s.station.rig.state(), haptics::FalconState::closed);
+  EXPECT_EQ(s.station.rig.state(), haptics::DriverState::closed);
 }
 
 }  // namespace

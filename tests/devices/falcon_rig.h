@@ -32,14 +32,14 @@ struct FalconRig {
   std::int64_t now_ns = 0, due_ns = 0;
   Packed3 f_D{0, 0, 0};
 
-  haptics::FalconState state() { return driver.status().state; }
+  haptics::DriverState state() { return driver.details().state; }
   void step() {
     now_ns = std::max(now_ns + 1'000'000, due_ns);
     driver.command(now_ns, f_D);
     due_ns = driver.step(now_ns);
   }
   /// Steps until `wanted`; false if that takes more than `most`.
-  bool reach(haptics::FalconState wanted, int most = 200) {
+  bool reach(haptics::DriverState wanted, int most = 200) {
     for (int i = 0; i < most && state() != wanted; ++i) step();
     return state() == wanted;
   }
@@ -77,7 +77,7 @@ inline double forceError(const TwinCommand& command, const Vec3& p, const Vec3& 
 /// The grip on a path through the workspace while the loop commands a turning force: in every cycle
 /// the position must be right, and every byte of the packet the one that this force needs.
 inline void cycleAndCheck(FalconRig& rig, int cycles) {
-  ASSERT_TRUE(rig.reach(haptics::FalconState::ready));
+  ASSERT_TRUE(rig.reach(haptics::DriverState::ready));
   rig.holdGripAt(haptics::kFalconCentre);
   rig.step();
   Vec3 p_before = unpack(rig.driver.read(rig.now_ns).p_DE);

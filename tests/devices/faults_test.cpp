@@ -23,11 +23,11 @@ TEST(FalconFaults, AStallOrATimeOutCostsOnePacketAndForceComesBack) {
     EXPECT_EQ(s.rig.driver.read(0).sequence, sequence + 1);
     s.rig.step();
     EXPECT_TRUE(s.rig.lastCommand().pushes());
-    const FalconStatus status = s.rig.driver.status();
+    const FalconStatus status = s.rig.driver.details();
     EXPECT_EQ(status.missed, 1u);
     EXPECT_EQ(status.stalls, fault == UsbStatus::stall ? 1u : 0u);
     EXPECT_EQ(status.timeouts, fault == UsbStatus::timeout ? 1u : 0u);
-    EXPECT_EQ(status.state, FalconState::ready);
+    EXPECT_EQ(status.state, DriverState::ready);
   }
 }
 
@@ -45,13 +45,13 @@ TEST(FalconFaults, ASilentDeviceIsOpenedAgain) {
   ReadyStation s;
   s.twin.mute = true;
   for (int i = 0; i < 49; ++i) s.rig.step();
-  EXPECT_EQ(s.rig.state(), FalconState::ready);
+  EXPECT_EQ(s.rig.state(), DriverState::ready);
   s.rig.step();
-  EXPECT_EQ(s.rig.state(), FalconState::lost);
-  EXPECT_EQ(s.rig.driver.status().problem, FalconProblem::silent);
+  EXPECT_EQ(s.rig.state(), DriverState::lost);
+  EXPECT_EQ(s.rig.driver.details().problem, FalconProblem::silent);
   EXPECT_EQ(s.rig.driver.read(0).homed, 0u);
   s.twin.mute = false;
-  EXPECT_TRUE(s.rig.reach(FalconState::ready));
+  EXPECT_TRUE(s.rig.reach(DriverState::ready));
 }
 
 TEST(FalconFaults, UnpluggedAndPluggedInAgainItGoesOn) {
@@ -60,18 +60,18 @@ TEST(FalconFaults, UnpluggedAndPluggedInAgainItGoesOn) {
     test::cycleAndCheck(s.rig, 200);
     s.usb.unplug();
     s.rig.step();
-    EXPECT_EQ(s.rig.state(), FalconState::lost);
-    EXPECT_EQ(s.rig.driver.status().problem, FalconProblem::absent);
+    EXPECT_EQ(s.rig.state(), DriverState::lost);
+    EXPECT_EQ(s.rig.driver.details().problem, FalconProblem::absent);
     EXPECT_EQ(s.rig.driver.read(0).homed, 0u);
     for (int i = 0; i < 5; ++i) s.rig.step();
     if (power_lost) s.twin.powerOff();
     s.usb.plugged = true;
     const std::size_t before = s.rig.heard();
-    ASSERT_TRUE(s.rig.reach(FalconState::homing));
+    ASSERT_TRUE(s.rig.reach(DriverState::homing));
     for (std::size_t i = before; i < s.twin.commands.size(); ++i)
       EXPECT_FALSE(s.twin.commands[i].pushes()) << "it may have been moved meanwhile";
     test::cycleAndCheck(s.rig, 200);
-    EXPECT_EQ(s.rig.driver.status().uploads, power_lost ? 1u : 0u);
+    EXPECT_EQ(s.rig.driver.details().uploads, power_lost ? 1u : 0u);
   }
 }
 
@@ -86,14 +86,14 @@ TEST(FalconFaults, ItLooksEverMoreSeldomForADeviceThatIsNotThere) {
   EXPECT_EQ(pauses_ms, (std::vector<std::int64_t>{50, 100, 200, 400, 800, 1600, 2000, 2000}));
   EXPECT_EQ(s.rig.driver.step(s.rig.now_ns + 1), s.rig.due_ns) << "not due: nothing happens";
   s.usb.plugged = true;
-  EXPECT_TRUE(s.rig.reach(FalconState::ready));
+  EXPECT_TRUE(s.rig.reach(DriverState::ready));
 }
 
 TEST(FalconFaults, LostHomingTakesTheForceAway) {
   ReadyStation s;
   s.twin.loseHoming();
   s.rig.step();
-  EXPECT_EQ(s.rig.state(), FalconState::homing);
+  EXPECT_EQ(s.rig.state(), DriverState::homing);
   s.rig.step();
   EXPECT_FALSE(s.rig.lastCommand().pushes());
   EXPECT_EQ(s.rig.lastCommand().flags, kFalconHoming | kFalconRed);

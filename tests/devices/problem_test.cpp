@@ -28,8 +28,8 @@ TEST(FalconProblems, WhatKeepsItFromOpeningIsToldApart) {
     usb->open_answer = answer;
     test::FalconRig rig(std::move(usb), twin, test::someImage());
     rig.step();
-    EXPECT_EQ(rig.driver.status().problem, problem);
-    EXPECT_EQ(rig.state(), FalconState::opening);
+    EXPECT_EQ(rig.driver.details().problem, problem);
+    EXPECT_EQ(rig.state(), DriverState::opening);
   }
 }
 
@@ -39,7 +39,7 @@ TEST(FalconProblems, EachSaysWhatToDo) {
   EXPECT_TRUE(says(words(FalconProblem::absent), "power supply"));
   EXPECT_TRUE(says(words(FalconProblem::busy), "another program"));
   EXPECT_TRUE(says(words(FalconProblem::needs_firmware), "path of a firmware file"));
-  EXPECT_TRUE(says(falconInstruction(FalconState::homing), "Pull the grip"));
+  EXPECT_TRUE(says(falconInstruction(DriverState::homing), "Pull the grip"));
 }
 
 TEST(FalconProblems, TheRuleThatIsNamedExistsAndIsForThisDevice) {

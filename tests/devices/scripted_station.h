@@ -22,7 +22,7 @@ struct Station {
 struct ReadyStation : Station {
   ReadyStation() {
     twin.startFirmware();
-    EXPECT_TRUE(rig.reach(haptics::FalconState::ready));
+    EXPECT_TRUE(rig.reach(haptics::DriverState::ready));
     rig.f_D = {0, 0, 2};
     rig.step();
     rig.step();

@@ -44,7 +44,7 @@ class FalconOnUsb : public testing::Test {
   }
   void start() {
     twin.startFirmware();
-    ASSERT_TRUE(rig->reach(FalconState::ready));
+    ASSERT_TRUE(rig->reach(DriverState::ready));
     rig->f_D = {0, 0, 2};
     for (int i = 0; i < 3; ++i) rig->step();
     ASSERT_TRUE(rig->lastCommand().pushes());
@@ -56,14 +56,14 @@ class FalconOnUsb : public testing::Test {
 
 TEST_F(FalconOnUsb, UploadsHomesAndRunsFiveThousandCycles) {
   twin.corrupt_chunk = 40;
-  ASSERT_TRUE(rig->reach(FalconState::homing));
+  ASSERT_TRUE(rig->reach(DriverState::homing));
   EXPECT_EQ(twin.image, test::someImage());
   EXPECT_EQ(twin.resets, 2) << "once more after the wrong echo";
-  EXPECT_EQ(rig->driver.status().uploads, 1u);
-  ASSERT_TRUE(rig->reach(FalconState::ready));
+  EXPECT_EQ(rig->driver.details().uploads, 1u);
+  ASSERT_TRUE(rig->reach(DriverState::ready));
   for (const test::TwinCommand& command : twin.commands) EXPECT_FALSE(command.pushes());
   test::cycleAndCheck(*rig, 5000);
-  EXPECT_EQ(rig->driver.status().missed, 0u);
+  EXPECT_EQ(rig->driver.details().missed, 0u);
 }
 
 TEST_F(FalconOnUsb, TheLastPacketIsZeroAndTheKernelsDriverComesBack) {
@@ -82,33 +82,33 @@ TEST_F(FalconOnUsb, AStallIsClearedAndCostsOnePacket) {
   usb->stalls = 1;
   rig->step();
   EXPECT_EQ(usb->cleared_halts, 1);
-  EXPECT_EQ(rig->driver.status().stalls, 1u);
+  EXPECT_EQ(rig->driver.details().stalls, 1u);
   test::cycleAndCheck(*rig, 100);
-  EXPECT_EQ(rig->driver.status().missed, 1u);
+  EXPECT_EQ(rig->driver.details().missed, 1u);
 }
 
 TEST_F(FalconOnUsb, ATimeOutCostsOnePacket) {
   start();
   usb->silences = 1;
   rig->step();
-  EXPECT_EQ(rig->driver.status().timeouts, 1u);
+  EXPECT_EQ(rig->driver.details().timeouts, 1u);
   rig->step();
   EXPECT_FALSE(rig->lastCommand().pushes());
   test::cycleAndCheck(*rig, 100);
-  EXPECT_EQ(rig->driver.status().missed, 1u);
+  EXPECT_EQ(rig->driver.details().missed, 1u);
 }
 
 TEST_F(FalconOnUsb, UnpluggedAndPluggedInAgainItGoesOn) {
   start();
   usb->unplug();
   for (int i = 0; i < 4; ++i) rig->step();
-  EXPECT_EQ(rig->state(), FalconState::lost);
-  EXPECT_EQ(rig->driver.status().problem, FalconProblem::absent);
+  EXPECT_EQ(rig->state(), DriverState::lost);
+  EXPECT_EQ(rig->driver.details().problem, FalconProblem::absent);
   EXPECT_EQ(rig->driver.read(0).homed, 0u);
   twin.powerOff();
   usb->plugIn();
-  ASSERT_TRUE(rig->reach(FalconState::ready));
-  EXPECT_EQ(rig->driver.status().uploads, 1u);
+  ASSERT_TRUE(rig->reach(DriverState::ready));
+  EXPECT_EQ(rig->driver.details().uploads, 1u);
   test::cycleAndCheck(*rig, 500);
 }
 
@@ -121,13 +121,13 @@ TEST_F(FalconOnUsb, TwoAtOnceAreTwo) {
   twin.startFirmware();
   other_twin.startFirmware();
   for (int i = 0;
-       i < 200 && (one->state() != FalconState::ready || other.state() != FalconState::ready);
+       i < 200 && (one->state() != DriverState::ready || other.state() != DriverState::ready);
        ++i) {
     one->step();
     other.step();
   }
-  ASSERT_EQ(one->state(), FalconState::ready);
-  ASSERT_EQ(other.state(), FalconState::ready);
+  ASSERT_EQ(one->state(), DriverState::ready);
+  ASSERT_EQ(other.state(), DriverState::ready);
   // Whichever driver has got which device: grips apart, forces against each other, nothing mixed
   // up.
   const bool crossed = other_usb.claims == 1 && usb->claims == 1 && [&] {
@@ -160,15 +160,15 @@ TEST_F(FalconOnUsb, AnotherProgramHoldsIt) {
   usb->held = true;
   twin.startFirmware();
   rig->step();
-  EXPECT_EQ(rig->driver.status().problem, FalconProblem::busy);
+  EXPECT_EQ(rig->driver.details().problem, FalconProblem::busy);
   usb->held = false;
-  EXPECT_TRUE(rig->reach(FalconState::ready));
+  EXPECT_TRUE(rig->reach(DriverState::ready));
 }
 
 TEST_F(FalconOnUsb, NoDevice) {
   usb->unplug();
   rig->step();
-  EXPECT_EQ(rig->driver.status().problem, FalconProblem::absent);
+  EXPECT_EQ(rig->driver.details().problem, FalconProblem::absent);
   usb->plugIn();
 }
 

@@ -80,7 +80,7 @@ TEST(AllThreads, RunTogetherAndTheHapticOneNeverAllocates) {
   test::Station station;
   station.twin.startFirmware();
   station.rig.holdGripAt(haptics::kFalconCentre);
-  FalconActivity falcon(station.rig.driver, bus.device_to_task);
+  DriverActivity falcon(station.rig.driver, bus.device_to_task);
   ChannelSensor sensor({}, TimeMode::real, 1'000'000'000);
   haptics::WrenchFilter filter;
   filter.low_pass = haptics::butterworth(50, 1000);

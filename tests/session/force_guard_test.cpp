@@ -87,10 +87,12 @@ TEST(ForceGuard, LetsAloneASessionThatIsSilentAndGoesWithAFarewell) {
 }
 
 TEST(ForceGuard, StandsOnlyBesideTheProgramItself) {
-  ForceGuard guard;  // of a test: started anew it would run all tests
+  // Of a test: started anew it would run all tests.
+  ForceGuard guard(*haptics::driverNamed("falcon"), {});
   EXPECT_FALSE(guard.stands());
   EXPECT_EQ(guard.step(0), runtime::kNever);
-  EXPECT_TRUE(isGuard({"force-guard", "1", "2"}));
+  EXPECT_TRUE(isGuard({"force-guard", "1", "2", "falcon", "firmware=a b.bin"}));
+  EXPECT_FALSE(isGuard({"force-guard", "1", "2"}));
   EXPECT_FALSE(isGuard({"subclavian", "--fast", "--quiet"}));
 }
 
@@ -101,15 +103,17 @@ TEST(ForceGuard, TakesAwayTheForceThatADeadProgramLeft) {
   auto usb = std::make_unique<test::ScriptedUsb>(twin);
   test::ScriptedUsb& cable = *usb;
   test::FalconRig dead(std::move(usb), twin, test::someImage());
-  ASSERT_TRUE(dead.reach(haptics::FalconState::ready));
+  ASSERT_TRUE(dead.reach(haptics::DriverState::ready));
   dead.f_D = {0, 0, 2};
   for (int i = 0; i < 3; ++i) dead.step();
   cable.unplug();  // of this program: the device keeps what it was told
   ASSERT_TRUE(dead.lastCommand().pushes());
   const std::size_t before = dead.heard();
 
-  test::ScriptedUsb free_again(twin);
-  EXPECT_TRUE(takeFalconForceAway(free_again));
+  auto again = std::make_unique<test::ScriptedUsb>(twin);
+  const test::ScriptedUsb& free_again = *again;
+  haptics::FalconDriver driver(std::move(again), {});
+  EXPECT_TRUE(takeForceAway(driver));
   ASSERT_GT(dead.heard(), before);
   for (std::size_t i = before; i < dead.heard(); ++i)
     EXPECT_FALSE(twin.commands[i].pushes()) << "packet " << i - before;
@@ -141,8 +145,8 @@ class HeldUsb final : public haptics::UsbTransport {
 TEST(ForceGuard, WaitsForADeviceThatIsNotFreeYet) {
   test::FalconTwin twin{test::someImage()};
   twin.startFirmware();
-  HeldUsb usb(twin);
-  EXPECT_TRUE(takeFalconForceAway(usb));
+  haptics::FalconDriver driver(std::make_unique<HeldUsb>(twin), {});
+  EXPECT_TRUE(takeForceAway(driver));
   ASSERT_FALSE(twin.commands.empty());
   EXPECT_FALSE(twin.commands.back().pushes());
 }

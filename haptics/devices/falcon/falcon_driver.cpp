@@ -30,7 +30,7 @@ void FalconDriver::command(std::int64_t now_ns, const Packed3& f_D) noexcept {
 
 std::int64_t FalconDriver::step(std::int64_t now_ns) noexcept {
   const std::int64_t due_ns = link_.step(now_ns, motorCounts(now_ns));
-  if (link_.status().state != FalconState::ready) pose_.reset();
+  if (link_.status().state != DriverState::ready) pose_.reset();
   if (link_.report()) take(now_ns, *link_.report());
   publish();
   return due_ns;
@@ -40,6 +40,17 @@ void FalconDriver::close() noexcept {
   link_.close();
   pose_.reset();
   publish();
+}
+
+DriverStatus FalconDriver::status() noexcept {
+  const FalconStatus all = statuses_.read();
+  return {all.state, static_cast<std::uint8_t>(all.problem), all.exchanges, all.missed, all.opened};
+}
+
+std::string FalconDriver::words(const DriverStatus& status) const {
+  if (status.state == DriverState::ready) return "";
+  if (status.problem != 0) return falconError(static_cast<FalconProblem>(status.problem)).what();
+  return falconInstruction(status.state);
 }
 
 std::array<std::int16_t, 3> FalconDriver::motorCounts(std::int64_t now_ns) noexcept {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "haptics/device.h"
+#include "haptics/devices/driver.h"
 #include "haptics/devices/falcon/falcon_kinematics.h"
 #include "haptics/devices/falcon/falcon_link.h"
 #include "haptics/latest_value.h"
@@ -16,15 +16,11 @@ namespace palpa::haptics {
 /// the cube of 8 cm about the centre, every corner of which is reached.
 DeviceCapabilities falconCapabilities();
 
-/// A Novint Falcon as the haptic loop sees it. Three threads may hold it:
-///   haptic   read() and command() exchange latest values; they never wait, allocate or throw
-///   device   open(), then step() whenever it is due, then close()
-///   watcher  status(), one thread
-/// All of them count the same time. A reading is stamped with the beginning of its exchange, when
+/// A Novint Falcon. A reading is stamped with the beginning of its exchange, when
 /// the device looks at its encoders; its sequence grows only with a position that is known, or
 /// before homing with each answer. A force is rendered while the command is younger than
 /// `command_life_ns`.
-class FalconDriver final : public HapticDevice {
+class FalconDriver final : public Driver {
  public:
   /// `firmware` from readFalconFirmware(), or empty.
   FalconDriver(std::unique_ptr<UsbTransport> usb, std::vector<std::uint8_t> firmware,
@@ -34,13 +30,13 @@ class FalconDriver final : public HapticDevice {
   DeviceReading read(std::int64_t now_ns) noexcept override;
   void command(std::int64_t now_ns, const Packed3& f_D) noexcept override;
 
-  void open() noexcept { link_.open(); }
-  /// One exchange, or whatever else is due; returns when the next is due (FalconLink::kNever:
-  /// closed).
-  std::int64_t step(std::int64_t now_ns) noexcept;
-  void close() noexcept;
+  void open() noexcept override { link_.open(); }
+  std::int64_t step(std::int64_t now_ns) noexcept override;
+  void close() noexcept override;
+  DriverStatus status() noexcept override;
+  std::string words(const DriverStatus& status) const override;
 
-  FalconStatus status() noexcept { return statuses_.read(); }
+  FalconStatus details() noexcept { return statuses_.read(); }  ///< as status(), in full
 
  private:
   struct ForceCommand {

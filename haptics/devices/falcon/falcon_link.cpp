@@ -66,17 +66,17 @@ Error falconError(FalconProblem problem) {
   return {words.what, "the Novint Falcon", words.remedy};
 }
 
-const char* falconInstruction(FalconState state) {
+const char* falconInstruction(DriverState state) {
   switch (state) {
-    case FalconState::opening:
-    case FalconState::lost:
+    case DriverState::opening:
+    case DriverState::lost:
       return "Plug in the Falcon's USB cable and power supply.";
-    case FalconState::uploading:
+    case DriverState::preparing:
       return "Wait: the Falcon receives its firmware.";
-    case FalconState::homing:
+    case DriverState::homing:
       return "Pull the grip fully out, then push it fully in.";
-    case FalconState::closed:
-    case FalconState::ready:
+    case DriverState::closed:
+    case DriverState::ready:
       break;
   }
   return "";
@@ -98,8 +98,8 @@ FalconLink::FalconLink(UsbTransport& usb, std::vector<std::uint8_t> firmware)
     : usb_(usb), serial_(usb), firmware_(std::move(firmware)) {}
 
 void FalconLink::open() noexcept {
-  if (status_.state != FalconState::closed) return;
-  status_.state = FalconState::opening;
+  if (status_.state != DriverState::closed) return;
+  status_.state = DriverState::opening;
   status_.problem = FalconProblem::none;
   due_ns_ = 0;
   pause_ns_ = kFirstPause_ns;
@@ -108,14 +108,14 @@ void FalconLink::open() noexcept {
 std::int64_t FalconLink::step(std::int64_t now_ns,
                               const std::array<std::int16_t, 3>& motor) noexcept {
   report_.reset();
-  if (status_.state == FalconState::closed) return kNever;
+  if (status_.state == DriverState::closed) return kNever;
   if (now_ns < due_ns_) return due_ns_;
   switch (status_.state) {
-    case FalconState::opening:
-    case FalconState::lost:
+    case DriverState::opening:
+    case DriverState::lost:
       connect(now_ns);
       break;
-    case FalconState::uploading:
+    case DriverState::preparing:
       upload(now_ns);
       break;
     default:
@@ -126,14 +126,14 @@ std::int64_t FalconLink::step(std::int64_t now_ns,
 }
 
 void FalconLink::close() noexcept {
-  if (status_.state == FalconState::closed) return;
+  if (status_.state == DriverState::closed) return;
   if (talking() && serial_.write(encode({})) != UsbStatus::ok) serial_.write(encode({}));
   usb_.close();
-  status_.state = FalconState::closed;
+  status_.state = DriverState::closed;
 }
 
 bool FalconLink::talking() const {
-  return status_.state == FalconState::homing || status_.state == FalconState::ready;
+  return status_.state == DriverState::homing || status_.state == DriverState::ready;
 }
 
 void FalconLink::connect(std::int64_t now_ns) noexcept {
@@ -143,11 +143,11 @@ void FalconLink::connect(std::int64_t now_ns) noexcept {
   ++status_.opened;
   due_ns_ = now_ns;  // go on at once
   if (!half_uploaded_ && answers()) {
-    status_.state = FalconState::homing;
+    status_.state = DriverState::homing;
   } else if (firmware_.empty()) {
     giveUp(now_ns, FalconProblem::needs_firmware);
   } else {
-    status_.state = FalconState::uploading;
+    status_.state = DriverState::preparing;
   }
 }
 
@@ -159,7 +159,7 @@ void FalconLink::upload(std::int64_t now_ns) noexcept {
     ++status_.uploads;
     result.usb = setFalconNormalMode(serial_);
     if (result.usb == UsbStatus::ok && answers()) {
-      status_.state = FalconState::homing;
+      status_.state = DriverState::homing;
       due_ns_ = now_ns;
       return;
     }
@@ -184,7 +184,7 @@ bool FalconLink::answers() noexcept {
 
 void FalconLink::exchange(std::int64_t now_ns, const std::array<std::int16_t, 3>& motor) noexcept {
   FalconCommand command = homingCommand();
-  if (status_.state == FalconState::ready) {
+  if (status_.state == DriverState::ready) {
     command.flags = kFalconGreen;
     if (missed_in_a_row_ == 0) command.motor = motor;
   }
@@ -192,7 +192,7 @@ void FalconLink::exchange(std::int64_t now_ns, const std::array<std::int16_t, 3>
   if (const UsbStatus status = talk(command); status != UsbStatus::ok) return miss(now_ns, status);
   ++status_.exchanges;
   missed_in_a_row_ = 0;
-  status_.state = report_->allHomed() ? FalconState::ready : FalconState::homing;
+  status_.state = report_->allHomed() ? DriverState::ready : DriverState::homing;
 }
 
 /// One packet out, its answer into `report_`.
@@ -226,7 +226,7 @@ void FalconLink::miss(std::int64_t now_ns, UsbStatus status) noexcept {
 void FalconLink::giveUp(std::int64_t now_ns, FalconProblem problem) noexcept {
   usb_.close();
   status_.state =
-      talking() || status_.state == FalconState::lost ? FalconState::lost : FalconState::opening;
+      talking() || status_.state == DriverState::lost ? DriverState::lost : DriverState::opening;
   status_.problem = problem;
   due_ns_ = now_ns + pause_ns_;
   pause_ns_ = std::min(2 * pause_ns_, kLongestPause_ns);

@@ -6,20 +6,11 @@
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "haptics/devices/driver.h"
 #include "haptics/devices/falcon/falcon_protocol.h"
 #include "haptics/devices/usb_transport.h"
 
 namespace palpa::haptics {
-
-/// Where the link with a Falcon stands.
-enum class FalconState : std::uint8_t {
-  closed,
-  opening,    ///< not found yet, or not answering yet
-  uploading,  ///< it is there and has no firmware
-  homing,     ///< it answers; the grip has to be pulled out and pushed in once
-  ready,      ///< positions are absolute, forces are rendered
-  lost,       ///< it was there and is gone or silent; opened again as soon as it is back
-};
 
 /// What keeps it from going on.
 enum class FalconProblem : std::uint8_t {
@@ -39,13 +30,13 @@ FalconProblem problemOf(UsbStatus status);
 Error falconError(FalconProblem problem);
 
 /// What the person has to do for the state to go on ("Pull the grip ..."); empty: nothing.
-const char* falconInstruction(FalconState state);
+const char* falconInstruction(DriverState state);
 
 /// The Falcon's FTDI chip, with the product number that Novint gave it.
 inline constexpr UsbAddress kFalconUsb{0x0403, 0xCB48, 0x02, 0x81};
 
 struct FalconStatus {
-  FalconState state = FalconState::closed;
+  DriverState state = DriverState::closed;
   FalconProblem problem = FalconProblem::none;
   std::uint64_t exchanges = 0;  ///< answered
   std::uint64_t missed = 0;     ///< packets without an answer, whatever the reason
@@ -56,7 +47,8 @@ struct FalconStatus {
 
 /// The conversation with a Falcon, in counts:
 ///
-///   closed -> opening -> [uploading ->] homing -> ready
+///   closed -> opening -> [preparing ->] homing -> ready        (preparing: its firmware is
+///   uploaded)
 ///                ^                        |         |
 ///               lost <------ unplugged or silent ---'   (opened again, ever more seldom to 2 s)
 ///
@@ -67,7 +59,7 @@ struct FalconStatus {
 /// Belongs to one thread, which may block in it: milliseconds an exchange, seconds an upload.
 class FalconLink {
  public:
-  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  static constexpr std::int64_t kNever = Driver::kNever;
 
   /// `firmware` empty: only a device with running firmware can be used.
   FalconLink(UsbTransport& usb, std::vector<std::uint8_t> firmware);

@@ -1,0 +1,30 @@
+# palpa_driver_list(ROOMS FILE folders...)
+# Writes the source FILE, the list of the drivers in these folders: every folder in them with a file
+# driver.cpp, but the template. ROOMS: names of those in the first of them.
+function(palpa_driver_list ROOMS FILE)
+  set(PALPA_DRIVER_DECLARATIONS "")
+  set(PALPA_DRIVER_NAMES "")
+  set(rooms "")
+  list(GET ARGN 0 first)
+  foreach(folder IN LISTS ARGN)
+    file(GLOB descriptions CONFIGURE_DEPENDS ${folder}/*/driver.cpp)
+    foreach(description IN LISTS descriptions)
+      get_filename_component(room ${description} DIRECTORY)
+      get_filename_component(driver ${room} NAME)
+      if(driver STREQUAL template)
+        continue()
+      endif()
+      if(folder STREQUAL first)
+        list(APPEND rooms ${driver})
+      endif()
+      string(APPEND PALPA_DRIVER_DECLARATIONS
+        "namespace ${driver} {\nconst DriverDescription& description();\n}\n")
+      string(APPEND PALPA_DRIVER_NAMES "&${driver}::description(), ")
+    endforeach()
+  endforeach()
+  configure_file(${PROJECT_SOURCE_DIR}/haptics/devices/driver_list.cpp.in ${FILE} @ONLY)
+  # A test puts a longer list in its place.
+  set_source_files_properties(${FILE} PROPERTIES
+    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+  set(${ROOMS} ${rooms} PARENT_SCOPE)
+endfunction()
