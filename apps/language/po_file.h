@@ -15,7 +15,8 @@ struct PoFile {
     std::string id, translation;  ///< UTF-8; the translation is empty where there is none yet
   };
   std::map<std::string, std::string> header;  ///< "Language", "Content-Type" ...
-  std::vector<Message> messages, of_the_guide;
+  std::vector<Message> messages;
+  std::vector<Message> of_the_guide = {};
 };
 
 /// `name` is for words about what is wrong. Throws UsageError.
