@@ -142,7 +142,8 @@ async function steer() {
   await page.keyboard.press("m");
   await page.keyboard.type("held with both hands");
   await page.keyboard.press("Enter");
-  await page.locator(".event.note", { hasText: "held with both hands" }).waitFor();
+  const typed = page.untold ?? page; // in no other language
+  await typed.locator(".event.note", { hasText: "held with both hands" }).waitFor();
   if (by === "keyboard") await page.keyboard.press("Control+.");
   else await hand.press(page.locator("#emergency-stop"));
   await page.locator(".alarm .notice").waitFor();
