@@ -8,6 +8,7 @@
 namespace palpa::language {
 namespace {
 
+constexpr char kGuide[] = "\"guide\"";
 constexpr char kMend[] = "Look at it with an editor for PO files, or with msgfmt --check";
 
 class Reader {
@@ -16,6 +17,7 @@ class Reader {
 
   PoFile read() {
     while (!rest_.empty()) take(nextLine());
+    if (of_the_guide_ && !has_id_) refuse("ends with a context");
     keep();
     return std::move(file_);
   }
@@ -32,12 +34,15 @@ class Reader {
 
   void take(std::string_view line) {
     if (line.empty() || line.starts_with("#~")) return;
+    if (of_the_guide_ && !has_id_ && !line.starts_with("msgid \""))
+      refuse("has a context without a message");
     if (line.starts_with("#,") && line.find("fuzzy") != std::string_view::npos) {
       keep();
       fuzzy_ = true;
     } else if (line.starts_with('#')) {
       return;
     } else if (line.starts_with("msgctxt ")) {
+      if (line.substr(8) != kGuide) refuse("has a context that is not the guide's");
       keep();
       of_the_guide_ = true;
     } else if (line.starts_with("msgid \"")) {

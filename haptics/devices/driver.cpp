@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "haptics/devices/driver_list.h"
-
 namespace palpa::haptics {
 namespace {
 

@@ -106,7 +106,8 @@ struct DriverDescription {
   std::vector<DriverNeed> (*needs)(const DriverSettings& settings) = nullptr;  ///< or null
 };
 
-/// In the order of their names.
+/// Of every folder with a `driver.cpp`, in the order of their names; the build makes the source.
+std::vector<const DriverDescription*> listedDrivers();
 const std::vector<const DriverDescription*>& drivers();
 /// Null where there is none of this name.
 const DriverDescription* driverNamed(std::string_view name);

@@ -117,6 +117,7 @@ std::filesystem::path stationWith(const test::ScratchFolder& folder, const char*
       nlohmann::json::parse(readWhole(PALPA_SOURCE_DIR "/assets/stations/falcon.json").value());
   station["device"]["driver"] = "serial_pen";
   station["device"][field] = "/dev/ttyACM3";
+  station["safety"]["max_force_N"] = 1.5;
   writeWhole(folder / "station.json", station.dump());
   return folder / "station.json";
 }

@@ -1,4 +1,4 @@
-#include "apps/bench/room/played_session.h"
+#include "apps/bench/room/room_parts.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -8,7 +8,6 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/utc.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/bench/room/played_session.h"
 #include "apps/console/routes.h"
 #include "apps/console/web/guard.h"
 #include "apps/evidence/told_events.h"
