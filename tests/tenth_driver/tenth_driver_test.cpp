@@ -118,6 +118,7 @@ std::filesystem::path stationWith(const test::ScratchFolder& folder, const char*
   station["device"]["driver"] = "serial_pen";
   station["device"][field] = "/dev/ttyACM3";
   station["safety"]["max_force_N"] = 1.5;
+  station["coupling"]["stiffness_N_per_m"] = 500;
   writeWhole(folder / "station.json", station.dump());
   return folder / "station.json";
 }
